@@ -1,0 +1,48 @@
+#pragma once
+
+#include <mrpt_polyloc/localization/LocalizationResult.h>
+
+#include <mrpt/math/TPose2D.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace mrpt_polyloc {
+
+/// How far from the truth still counts as right.
+struct Tolerance {
+  double distance = 0.3;               ///< [m]
+  double angle = 0.08726646259971647;  ///< [rad], 5 degrees
+};
+
+/// One localized scan against its truth.
+struct ScanScore {
+  LocalizationStatus status = LocalizationStatus::too_few_beams;
+  /// Rank (from 1) of the first right hypothesis; 0 if none is right or none was given.
+  std::size_t right_rank = 0;
+  double error_m = 0.0;    ///< of the first hypothesis; NaN if there is none
+  double error_rad = 0.0;  ///< of the first hypothesis; NaN if there is none
+  double ms = 0.0;         ///< search and refinement
+};
+
+ScanScore scoreScan(const LocalizationResult& result, const mrpt::math::TPose2D& truth,
+                    const Tolerance& tolerance = {});
+
+/// Success rates and times over many scans, as summary.json holds them.
+struct Summary {
+  std::size_t scans = 0;
+  double top1 = 0, top5 = 0, top20 = 0;  ///< fractions with a right pose among the first k
+  double in_list = 0;                    ///< fraction with a right pose anywhere
+  std::optional<double> unique_right;    ///< of those called unique, right ones
+  std::optional<double> median_error_m, median_error_deg;  ///< over right first answers
+  double ms_median = 0, ms_p90 = 0, ms_max = 0;
+  std::array<std::size_t, 4> status{};  ///< counts, by LocalizationStatus
+};
+
+/// The summary of those scores whose indices are given; of all if `rows` is null.
+Summary summarize(const std::vector<ScanScore>& scores,
+                  const std::vector<std::size_t>* rows = nullptr);
+
+}  // namespace mrpt_polyloc

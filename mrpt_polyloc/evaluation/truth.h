@@ -1,0 +1,39 @@
+#pragma once
+
+#include <mrpt_polyloc/localization/RangeScan.h>
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace mrpt_polyloc {
+
+/// A pose of the robot's origin in the map at a time [s, m, rad].
+struct StampedPose {
+  double stamp = 0.0;
+  mrpt::math::TPose2D pose_map_robot;
+};
+
+/// Reads a TUM trajectory: `stamp x y z qx qy qz qw` a line, `#` comments. The heading is the yaw
+/// of the quaternion.
+/// \throws FormatError naming file and line: missing file, wrong number of fields, a number that is
+/// not finite, a quaternion that is not of unit length (1e-2), no pose at all.
+std::vector<StampedPose> loadTum(const std::string& path);
+
+/// One TUM line per pose, stamps with nanoseconds, lengths with micrometres.
+std::string toTum(const std::vector<StampedPose>& poses);
+
+/// The true pose of each scan, matched by stamp within 1 ms.
+/// \throws FormatError(path, ...) naming scan or line if a scan has no truth or two, or a truth no
+/// scan.
+std::vector<mrpt::math::TPose2D> matchTruth(const std::vector<RangeScan>& scans,
+                                            const std::vector<StampedPose>& truth,
+                                            const std::string& path);
+
+/// Reads row numbers (0-based), one a line, `#` comments: the good rows of a data set.
+/// \throws FormatError naming file and line: not a number, out of [0, rows), a row twice.
+std::vector<std::size_t> loadRows(const std::string& path, std::size_t rows);
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,219 @@
+#include <mrpt_polyloc/geometry/PolygonMap.h>
+#include <mrpt_polyloc/geometry/errors.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace mrpt_polyloc {
+namespace {
+
+std::string at(const TPoint2D& p) {
+  char text[80];
+  std::snprintf(text, sizeof text, " at (%.3f, %.3f)", p.x, p.y);
+  return text;
+}
+
+void checkFinite(const std::vector<TPoint2D>& points, const char* what) {
+  for (const TPoint2D& p : points) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+      throw InvalidMapError(std::string("coordinate that is not finite in ") + what + at(p));
+    }
+  }
+}
+
+void checkRing(const Ring& ring, bool outer) {
+  const char* what = outer ? "outer ring" : "hole";
+  if (ring.size() < 3) {
+    throw InvalidMapError(std::string(what) + " with fewer than three vertices" +
+                          (ring.size() > 0 ? at(ring.vertices.front()) : ""));
+  }
+  if (ring.kinds.size() != ring.size()) {
+    throw InvalidMapError(std::string(what) + " whose edge kinds do not match its vertices" +
+                          at(ring.vertices.front()));
+  }
+  checkFinite(ring.vertices, what);
+  const double area = signedArea(ring.vertices);
+  if (outer ? area <= 0.0 : area >= 0.0) {
+    throw InvalidMapError(std::string(what) + " of zero area or wrong orientation" +
+                          at(ring.vertices.front()));
+  }
+}
+
+/// Calls visit(a, b, kind) for every edge of a ring.
+template <class Visitor>
+void forEachEdge(const Ring& ring, Visitor&& visit) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    visit(ring.vertices[i], ring.vertices[(i + 1) % ring.size()], ring.kinds[i]);
+  }
+}
+
+double length(const TPoint2D& a, const TPoint2D& b) {
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+double cross(const TPoint2D& o, const TPoint2D& a, const TPoint2D& b) {
+  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+
+/// 64-bit FNV-1a over the bytes of what is added.
+class Fnv1a {
+ public:
+  template <class T>
+  void add(const T& value) {
+    unsigned char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    for (const unsigned char byte : bytes) hash_ = (hash_ ^ byte) * 1099511628211ULL;
+  }
+  void add(const TPoint2D& p) {
+    add(p.x + 0.0);  // -0 and 0 are one coordinate
+    add(p.y + 0.0);
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 14695981039346656037ULL;
+};
+
+}  // namespace
+
+Ring wallRing(std::vector<TPoint2D> vertices) {
+  std::vector<EdgeKind> kinds(vertices.size(), EdgeKind::wall);
+  return {std::move(vertices), std::move(kinds)};
+}
+
+double signedArea(const std::vector<TPoint2D>& vertices) {
+  double twice = 0.0;
+  for (std::size_t i = 2; i < vertices.size(); ++i) {
+    twice += cross(vertices[0], vertices[i - 1], vertices[i]);
+  }
+  return 0.5 * twice;
+}
+
+PolygonMap::PolygonMap(std::vector<FreePolygon> components, std::vector<Polyline> walls_beyond)
+    : components_(std::move(components)), walls_beyond_(std::move(walls_beyond)) {
+  if (components_.empty()) throw InvalidMapError("the map has no free space");
+  for (const FreePolygon& component : components_) {
+    checkRing(component.outer, true);
+    for (const Ring& hole : component.holes) checkRing(hole, false);
+  }
+  for (const Polyline& wall : walls_beyond_) {
+    if (wall.size() < 2) throw InvalidMapError("wall beyond with fewer than two points");
+    checkFinite(wall, "wall beyond");
+  }
+
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  bounding_box_ = {{inf, inf}, {-inf, -inf}};
+  const auto extend = [this](const std::vector<TPoint2D>& points) {
+    for (const TPoint2D& p : points) {
+      bounding_box_.min.x = std::min(bounding_box_.min.x, p.x);
+      bounding_box_.min.y = std::min(bounding_box_.min.y, p.y);
+      bounding_box_.max.x = std::max(bounding_box_.max.x, p.x);
+      bounding_box_.max.y = std::max(bounding_box_.max.y, p.y);
+    }
+  };
+  for (const FreePolygon& component : components_) extend(component.outer.vertices);
+  for (const Polyline& wall : walls_beyond_) extend(wall);
+}
+
+std::vector<const Ring*> PolygonMap::rings() const {
+  std::vector<const Ring*> all;
+  for (const FreePolygon& component : components_) {
+    all.push_back(&component.outer);
+    for (const Ring& hole : component.holes) all.push_back(&hole);
+  }
+  return all;
+}
+
+bool PolygonMap::contains(const TPoint2D& point) const {
+  bool inside = false;  // even-odd over all rings: they do not cross
+  for (const Ring* ring : rings()) {
+    bool on_border = false;
+    forEachEdge(*ring, [&](const TPoint2D& a, const TPoint2D& b, EdgeKind) {
+      const double side = cross(a, b, point);
+      const bool in_box = std::min(a.x, b.x) <= point.x && point.x <= std::max(a.x, b.x) &&
+                          std::min(a.y, b.y) <= point.y && point.y <= std::max(a.y, b.y);
+      if (side == 0.0 && in_box) on_border = true;
+      if ((a.y <= point.y) != (b.y <= point.y)) inside ^= (side > 0.0) == (b.y > a.y);
+    });
+    if (on_border) return true;
+  }
+  return inside;
+}
+
+std::size_t PolygonMap::vertexCount() const {
+  std::size_t count = 0;
+  for (const Ring* ring : rings()) count += ring->size();
+  return count;
+}
+
+std::size_t PolygonMap::reflexVertexCount() const {
+  std::size_t count = 0;
+  for (const Ring* ring : rings()) {
+    const std::size_t n = ring->size();
+    for (std::size_t i = 0; i < n; ++i) {
+      count += cross(ring->vertices[(i + n - 1) % n], ring->vertices[i],
+                     ring->vertices[(i + 1) % n]) < 0.0;
+    }
+  }
+  return count;
+}
+
+std::size_t PolygonMap::holeCount() const {
+  std::size_t count = 0;
+  for (const FreePolygon& component : components_) count += component.holes.size();
+  return count;
+}
+
+double PolygonMap::area() const {
+  double area = 0.0;  // holes are clockwise and count negative
+  for (const Ring* ring : rings()) area += signedArea(ring->vertices);
+  return area;
+}
+
+double PolygonMap::perimeter() const {
+  double sum = 0.0;
+  for (const Ring* ring : rings()) {
+    forEachEdge(*ring,
+                [&](const TPoint2D& a, const TPoint2D& b, EdgeKind) { sum += length(a, b); });
+  }
+  return sum;
+}
+
+double PolygonMap::openPerimeter() const {
+  double sum = 0.0;
+  for (const Ring* ring : rings()) {
+    forEachEdge(*ring, [&](const TPoint2D& a, const TPoint2D& b, EdgeKind kind) {
+      if (kind == EdgeKind::open) sum += length(a, b);
+    });
+  }
+  return sum;
+}
+
+double PolygonMap::wallsBeyondLength() const {
+  double sum = 0.0;
+  for (const Polyline& wall : walls_beyond_) {
+    for (std::size_t i = 1; i < wall.size(); ++i) sum += length(wall[i - 1], wall[i]);
+  }
+  return sum;
+}
+
+std::uint64_t PolygonMap::hash() const {
+  Fnv1a hash;
+  for (const Ring* ring : rings()) {
+    hash.add(ring->size());
+    for (const TPoint2D& p : ring->vertices) hash.add(p);
+    for (const EdgeKind kind : ring->kinds) hash.add(kind);
+  }
+  for (const Polyline& wall : walls_beyond_) {
+    hash.add(wall.size());
+    for (const TPoint2D& p : wall) hash.add(p);
+  }
+  return hash.value();
+}
+
+}  // namespace mrpt_polyloc

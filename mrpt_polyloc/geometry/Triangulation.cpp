@@ -1,0 +1,1 @@
+#include <mrpt_polyloc/geometry/Triangulation.h>

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <mrpt/math/CMatrixFixed.h>
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace mrpt_polyloc {
+
+/// What the answer means.
+enum class LocalizationStatus {
+  unique,        ///< the first hypothesis has no rival that explains the scan as well
+  ambiguous,     ///< several poses explain the scan about equally well
+  no_match,      ///< no pose explains the scan: another building, or too much changed
+  too_few_beams  ///< the scan holds too little information to search for
+};
+
+/// "unique", "ambiguous", "no_match" or "too_few_beams".
+const char* toString(LocalizationStatus status);
+
+/// One pose that explains the scan.
+struct Hypothesis {
+  mrpt::math::TPose2D pose_map_robot;      ///< of the ROBOT, not its sensor [m, rad]
+  mrpt::math::CMatrixDouble33 covariance;  ///< of (x, y, phi) of the robot [m, rad]
+  double weight = 0.0;                     ///< share of belief; all weights sum to 1
+  double cost = 0.0;                       ///< mean robust cost per beam [m]
+};
+
+/// What is known of the robot's pose before the search; empty means nothing.
+struct PosePrior {
+  struct Compass {
+    double heading;    ///< of the robot in the map [rad]
+    double tolerance;  ///< greatest error of it [rad], in [0, pi]
+  };
+  struct Disk {
+    double x, y;    ///< of the ROBOT in the map [m]
+    double radius;  ///< [m]
+  };
+  std::optional<Compass> compass;
+  std::optional<Disk> near;
+};
+
+/// What the search did.
+struct SearchStatistics {
+  std::size_t positions = 0;   ///< candidate positions in the index
+  std::size_t evaluated = 0;   ///< poses whose cost was (at least partly) evaluated
+  std::size_t refined = 0;     ///< candidates refined
+  double search_ms = 0.0;      ///< wall time of the search
+  double refinement_ms = 0.0;  ///< wall time of refinement, ranking and merging
+};
+
+/// All hypotheses for one scan, best first; empty unless status is unique or ambiguous.
+struct LocalizationResult {
+  LocalizationStatus status = LocalizationStatus::too_few_beams;
+  std::vector<Hypothesis> hypotheses;
+  SearchStatistics statistics;
+};
+
+}  // namespace mrpt_polyloc
