@@ -136,7 +136,7 @@ void SquareExpander::reach(HalfEdge edge, const Cone& cone) {
 void SquareExpander::wait(HalfEdge edge, std::int32_t next) {
   const Circle& circle = circles_[static_cast<std::size_t>(next)];
   const double x = circle.x - square_.center.x, y = circle.y - square_.center.y;
-  queue_.push_back({x * x + y * y - circle.squared_radius, edge});
+  queue_.push_back({static_cast<float>(x * x + y * y - circle.squared_radius), edge});
   std::push_heap(queue_.begin(), queue_.end());
   passed_[edge].is_waiting = true;
 }

@@ -56,7 +56,7 @@ class SquareExpander {
     double x, y, squared_radius;
   };
   struct Waiting {
-    double distance;
+    float distance;  ///< squared, less the squared radius
     HalfEdge edge;
     bool operator<(const Waiting& other) const { return distance > other.distance; }
   };

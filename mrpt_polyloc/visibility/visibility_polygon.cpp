@@ -1,15 +1,17 @@
 #include <mrpt_polyloc/visibility/visibility_polygon.h>
 
-#include <cstddef>
+#include <algorithm>
 
 namespace mrpt_polyloc {
 namespace {
 
-/// Where the ray from p through `limit` meets the line a b.
+/// Where the ray from p through `limit` meets the edge a b, which it does up to rounding.
 TPoint2D hit(const TPoint2D& p, const TPoint2D& limit, const TPoint2D& a, const TPoint2D& b) {
   const double ux = limit.x - p.x, uy = limit.y - p.y;
   const double ex = b.x - a.x, ey = b.y - a.y;
-  const double s = ((a.x - p.x) * uy - (a.y - p.y) * ux) / (ux * ey - uy * ex);
+  const double along = (a.x - p.x) * uy - (a.y - p.y) * ux, across = ux * ey - uy * ex;
+  // An edge seen end on has no one point that is met.
+  const double s = across > 0.0 ? std::clamp(along / across, 0.0, 1.0) : 0.0;
   return {a.x + s * ex, a.y + s * ey};
 }
 

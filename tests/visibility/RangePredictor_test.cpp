@@ -159,5 +159,85 @@ TEST(RangePredictor, EqualsBruteForceOnRandomMaps) {
   EXPECT_LT(static_cast<double>(grazing), 1e-3 * static_cast<double>(beams));
 }
 
+TEST(RangePredictor, GivesOnePoseWhatItGivesMany) {
+  std::mt19937 random(22);
+  const PolygonMap map = test::floorPlan(test::randomParams(random), 22);
+  const Triangulation triangulation(map);
+  const RangePredictor predictor(triangulation, 0.5, 1), other(triangulation, 0.5, 2);
+  const std::vector<TPose2D> poses = randomPoses(map, 300, random);
+  for (int i = 0; i < 4; ++i) {
+    const std::vector<double> bearings = randomBearings(random);
+    const BeamPattern beams(bearings);
+    PredictedRanges many, one, by_two_threads;
+    predictor.predict(poses, beams, many);
+    other.predict(poses, beams, by_two_threads);
+    EXPECT_EQ(many.wall, by_two_threads.wall);
+    EXPECT_EQ(many.open, by_two_threads.open);
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      predictor.predict(poses[k], beams, one);
+      const auto begin = static_cast<std::ptrdiff_t>(k * bearings.size());
+      ASSERT_TRUE(std::equal(one.wall.begin(), one.wall.end(), many.wall.begin() + begin));
+      ASSERT_TRUE(std::equal(one.open.begin(), one.open.end(), many.open.begin() + begin));
+    }
+  }
+}
+
+TEST(RangePredictor, PredictsFromUnknownSpaceThatNoCellCovers) {
+  Ring left = wallRing({{0, 0}, {4, 0}, {4, 4}, {0, 4}}), right = left;
+  for (TPoint2D& p : right.vertices) p.x += 40;
+  left.kinds[1] = right.kinds[3] = EdgeKind::open;
+  const PolygonMap map({{left, {}}, {right, {}}}, {{{30, -1}, {31, 1}}});
+  const Triangulation triangulation(map);
+  const RangePredictor predictor(triangulation, 0.5, 1);
+  ASSERT_FALSE(predictor.index().covers({20, 2}));
+  const std::vector<double> bearings = fan(720, -kPi, 2 * kPi);
+  const std::vector<TPose2D> poses{{20, 2, 0.3}, {35, 0.5, 2}, {10, 4.9, -1}};
+  PredictedRanges predicted;
+  predictor.predict(poses, BeamPattern(bearings), predicted);
+  const Comparison comparison = compare(BruteForceRays(map), poses, bearings, predicted);
+  EXPECT_EQ(comparison.failure, "");
+  EXPECT_LT(comparison.grazing, 5U);
+}
+
+TEST(RangePredictor, SeesNothingFromOutsideTheBoxOrFromNowhere) {
+  const Triangulation triangulation(PolygonMap({{wallRing({{0, 0}, {4, 0}, {4, 4}, {0, 4}}), {}}}));
+  const RangePredictor predictor(triangulation, 0.5, 1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const BeamPattern beams(fan(36, -kPi, 2 * kPi));
+  for (const TPose2D& pose : {TPose2D(100, 2, 0), TPose2D(nan, 2, 0), TPose2D(2, nan, 0),
+                              TPose2D(2, 2, nan), TPose2D(2, 2, infinity), TPose2D(-1e300, 2, 0)}) {
+    PredictedRanges predicted;
+    predictor.predict(pose, beams, predicted);
+    EXPECT_EQ(predicted.wall, std::vector<float>(36, kInfinity));
+    EXPECT_EQ(predicted.open, std::vector<float>(36, kInfinity));
+  }
+}
+
+TEST(RangePredictor, TakesNoPosesAndNoBeams) {
+  const Triangulation triangulation(PolygonMap({{wallRing({{0, 0}, {4, 0}, {4, 4}, {0, 4}}), {}}}));
+  const RangePredictor predictor(triangulation, 0.5, 1);
+  PredictedRanges predicted{{1, 2, 3}, {4}};
+  predictor.predict(std::vector<TPose2D>{}, BeamPattern({0.0}), predicted);
+  EXPECT_TRUE(predicted.wall.empty() && predicted.open.empty());
+  predictor.predict(TPose2D(1, 1, 0), BeamPattern(std::vector<double>{}), predicted);
+  EXPECT_TRUE(predicted.wall.empty() && predicted.open.empty());
+}
+
+TEST(RangePredictor, HitsTheCornersOfARoom) {
+  // Beams exactly through vertices meet one of the two walls there: never pass between.
+  const Triangulation triangulation(PolygonMap({{wallRing({{0, 0}, {4, 0}, {4, 4}, {0, 4}}), {}}}));
+  const RangePredictor predictor(triangulation, 0.5, 1);
+  const BeamPattern beams(fan(8, -kPi, 2 * kPi));
+  for (const double heading : {0.0, kPi / 4, -kPi / 2, kPi, 1000 * kPi, 1e3}) {
+    PredictedRanges predicted;
+    predictor.predict(TPose2D(2, 2, heading), beams, predicted);
+    for (const float range : predicted.wall) {
+      EXPECT_GE(range, 1.99999F);
+      EXPECT_LE(range, 2.82844F);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mrpt_polyloc

@@ -1,0 +1,143 @@
+#include "tests/support/random_maps.h"
+#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/visibility/ViewExpander.h>
+#include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+#include <string>
+
+namespace mrpt_polyloc {
+namespace {
+
+/// An edge by its fixed-point coordinates.
+using Edge = std::array<std::int32_t, 4>;
+
+std::set<Edge> edgesOf(const BoundaryChains& chains, const BoundaryChains::Run* runs,
+                       std::size_t count) {
+  std::set<Edge> edges;
+  for (std::size_t r = 0; r < count; ++r) {
+    for (std::uint32_t i = runs[r].first; i < runs[r].first + runs[r].edges; ++i) {
+      edges.insert({chains.x()[i], chains.y()[i], chains.x()[i + 1], chains.y()[i + 1]});
+    }
+  }
+  return edges;
+}
+
+/// How many of some seen pieces are not listed.
+std::size_t missing(const Triangulation& t, const BoundaryChains& chains,
+                    const std::vector<VisibleEdge>& pieces, const std::set<Edge>& listed) {
+  std::size_t count = 0;
+  for (const VisibleEdge& piece : pieces) {
+    const TPoint2D& a = t.vertices()[static_cast<std::size_t>(piece.right)];
+    const TPoint2D& b = t.vertices()[static_cast<std::size_t>(piece.left)];
+    count += listed.count({chains.fixedX(a.x), chains.fixedY(a.y), chains.fixedX(b.x),
+                           chains.fixedY(b.y)}) == 0;
+  }
+  return count;
+}
+
+std::vector<VisibleEdge> wallsOf(const View& view) {
+  std::vector<VisibleEdge> walls;
+  for (const VisibleEdge& piece : view.ends) {
+    if (piece.is_wall) walls.push_back(piece);
+  }
+  return walls;
+}
+
+TEST(VisibleEdgeIndex, ListsAllThatIsSeenFromAnyPointOfACell) {
+  std::mt19937 random(71);
+  std::size_t points = 0;
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const PolygonMap map = test::floorPlan(test::randomParams(random), seed);
+    const Triangulation t(map);
+    const double cell_size = seed % 3 == 0 ? 0.2 : seed % 3 == 1 ? 0.5 : 1.7;
+    const VisibleEdgeIndex index(t, cell_size, 1);
+    ViewExpander expander(t);
+    for (const TPoint2D& p : test::randomPoints(map, 0.5, 150, random)) {
+      const std::int64_t number = index.cellNumber(p);
+      if (t.isFree(p)) {
+        EXPECT_GE(number, 0);
+      }
+      if (number < 0) continue;
+      ++points;
+      const VisibleEdgeIndex::Cell cell = index.cell(number);
+      const View& view = expander.expand(p);
+      EXPECT_EQ(missing(t, index.chains(), wallsOf(view),
+                        edgesOf(index.chains(), cell.walls, cell.wall_runs)),
+                0U)
+          << p.x << " " << p.y;
+      EXPECT_EQ(
+          missing(t, index.chains(), view.open, edgesOf(index.chains(), cell.open, cell.open_runs)),
+          0U)
+          << p.x << " " << p.y;
+    }
+  }
+  EXPECT_GT(points, 3000U);
+}
+
+TEST(VisibleEdgeIndex, ListsFewEdgesThatAreNotSeen) {
+  // From most cells of a floor of 120 rooms only some rooms are seen: the lists are no excuse.
+  const PolygonMap map = test::floorPlan(test::largeFloor(), 1);
+  const Triangulation t(map);
+  const VisibleEdgeIndex index(t, 0.5, 1);
+  std::mt19937 random(72);
+  ViewExpander expander(t);
+  std::size_t listed = 0, seen = 0;
+  for (const TPoint2D& p : test::randomFreePoints(map, 500, random)) {
+    const VisibleEdgeIndex::Cell cell = index.cell(index.cellNumber(p));
+    listed += edgesOf(index.chains(), cell.walls, cell.wall_runs).size();
+    seen += wallsOf(expander.expand(p)).size();
+  }
+  EXPECT_LT(listed, 3 * seen);
+}
+
+TEST(VisibleEdgeIndex, IsTheSameForAnyNumberOfThreads) {
+  std::mt19937 random(73);
+  const PolygonMap map = test::floorPlan(test::randomParams(random), 73);
+  const Triangulation t(map);
+  const VisibleEdgeIndex one(t, 0.3, 1), two(t, 0.3, 2), all(t, 0.3, 0);
+  ASSERT_EQ(one.bytes(), two.bytes());
+  ASSERT_EQ(one.bytes(), all.bytes());
+  const auto same = [](const BoundaryChains::Run& a, const BoundaryChains::Run& b) {
+    return a.first == b.first && a.edges == b.edges;
+  };
+  for (const TPoint2D& p : test::randomPoints(map, 0.5, 1000, random)) {
+    const std::int64_t number = one.cellNumber(p);
+    ASSERT_EQ(two.cellNumber(p), number);
+    if (number < 0) continue;
+    const VisibleEdgeIndex::Cell a = one.cell(number), b = two.cell(number), c = all.cell(number);
+    ASSERT_TRUE(std::equal(a.walls, a.walls + a.wall_runs, b.walls, b.walls + b.wall_runs, same));
+    ASSERT_TRUE(std::equal(a.open, a.open + a.open_runs, b.open, b.open + b.open_runs, same));
+    ASSERT_TRUE(std::equal(a.walls, a.walls + a.wall_runs, c.walls, c.walls + c.wall_runs, same));
+  }
+}
+
+TEST(VisibleEdgeIndex, CoversNoPointOutsideTheBox) {
+  const Triangulation t(PolygonMap({{wallRing({{0, 0}, {4, 0}, {0, 3}}), {}}}));
+  const VisibleEdgeIndex index(t, 0.5, 1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const TPoint2D& p :
+       {TPoint2D(-1.5, 1), TPoint2D(1e300, 0), TPoint2D(nan, 1), TPoint2D(1, nan)}) {
+    EXPECT_FALSE(index.covers(p));
+  }
+  EXPECT_TRUE(index.covers({1, 1}));
+  EXPECT_TRUE(index.covers({-0.4, 1}));  // next to free space
+}
+
+TEST(VisibleEdgeIndex, RefusesCellSizesThatMakeNoGrid) {
+  const Triangulation t(PolygonMap({{wallRing({{0, 0}, {4, 0}, {0, 3}}), {}}}));
+  for (const double size : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), 1e-7}) {
+    EXPECT_THROW(VisibleEdgeIndex(t, size, 1), InvalidParamsError) << size;
+  }
+  EXPECT_TRUE(VisibleEdgeIndex(t, 1e9, 1).covers({1, 1}));  // one cell
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc
