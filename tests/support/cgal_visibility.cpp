@@ -21,6 +21,14 @@ struct CgalVisibility::Impl {
   Arrangement arrangement;
   Location location;
   std::unique_ptr<Visibility> visibility;
+
+  std::optional<Arrangement::Face_handle> see(const TPoint2D& from, Arrangement& seen) const {
+    const Kernel::Point_2 query(from.x, from.y);
+    const auto found = location.locate(query);
+    const auto* face = boost::get<Arrangement::Face_const_handle>(&found);
+    if (face == nullptr || (*face)->is_unbounded()) return std::nullopt;
+    return visibility->compute_visibility(query, *face, seen);
+  }
 };
 
 CgalVisibility::CgalVisibility(const std::vector<Segment>& segments)
@@ -38,19 +46,21 @@ CgalVisibility::CgalVisibility(const std::vector<Segment>& segments)
 
 CgalVisibility::~CgalVisibility() = default;
 
-std::optional<std::vector<TPoint2D>> CgalVisibility::polygon(const TPoint2D& from) const {
-  const Kernel::Point_2 query(from.x, from.y);
-  const auto found = impl_->location.locate(query);
-  const auto* face = boost::get<Arrangement::Face_const_handle>(&found);
-  if (face == nullptr || (*face)->is_unbounded()) return std::nullopt;
+std::size_t CgalVisibility::see(const TPoint2D& from) const {
   Arrangement seen;
-  const auto view = impl_->visibility->compute_visibility(query, *face, seen);
+  return impl_->see(from, seen) ? seen.number_of_vertices() : 0;
+}
+
+std::optional<std::vector<TPoint2D>> CgalVisibility::polygon(const TPoint2D& from) const {
+  Arrangement seen;
+  const auto face = impl_->see(from, seen);
+  if (!face) return std::nullopt;
   std::vector<TPoint2D> polygon;
-  auto edge = view->outer_ccb();
+  auto edge = (*face)->outer_ccb();
   do {
     const Kernel::Point_2& p = edge->target()->point();
     polygon.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()));
-  } while (++edge != view->outer_ccb());
+  } while (++edge != (*face)->outer_ccb());
   return polygon;
 }
 

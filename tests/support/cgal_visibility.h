@@ -2,6 +2,7 @@
 
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -25,6 +26,10 @@ class CgalVisibility {
 
   /// What is seen from a point, counterclockwise and regularised; none if it lies on a segment.
   std::optional<std::vector<TPoint2D>> polygon(const TPoint2D& from) const;
+
+  /// The same left in CGAL's form, to be timed: the number of its vertices, 0 for none. The face
+  /// that holds the point is found by its own means, as part of the task.
+  std::size_t see(const TPoint2D& from) const;
 
  private:
   struct Impl;
