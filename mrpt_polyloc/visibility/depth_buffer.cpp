@@ -35,43 +35,6 @@ inline __attribute__((always_inline)) float atan2Polynomial(float y, float x) {
   return y < 0.0F ? -p : p;
 }
 
-}  // namespace
-
-POLYLOC_HOT_LOOP
-void projectEdges(const std::vector<VisibleEdgeIndex::Edge>& edges, const std::uint32_t* numbers,
-                  std::size_t count, const ViewFrame& frame, SeenEdges& out) {
-  if (out.right.size() < count) {
-    for (auto* column : {&out.right, &out.left, &out.along, &out.across}) column->resize(count);
-  }
-  float* right = out.right.data();
-  float* left = out.left.data();
-  float* along = out.along.data();
-  float* across = out.across.data();
-  // Front-facing edges are packed first, endpoints in place of the results: the costly part below
-  // then runs without branches.
-  std::size_t seen = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const VisibleEdgeIndex::Edge& e = edges[numbers[i]];
-    const float ax = e.ax - frame.x, ay = e.ay - frame.y;
-    const float bx = e.bx - frame.x, by = e.by - frame.y;
-    right[seen] = ax;
-    left[seen] = ay;
-    along[seen] = bx;
-    across[seen] = by;
-    seen += ax * by - ay * bx > 0.0F;
-  }
-  out.count = seen;
-  for (std::size_t i = 0; i < seen; ++i) {
-    const float ax = right[i], ay = left[i], bx = along[i], by = across[i];
-    const float scale = 1.0F / (ax * by - ay * bx);
-    const float nx = (by - ay) * scale, ny = (ax - bx) * scale;
-    right[i] = atan2Polynomial(ay, ax) - frame.heading;
-    left[i] = atan2Polynomial(by, bx) - frame.heading;
-    along[i] = nx * frame.cosine + ny * frame.sine;
-    across[i] = ny * frame.cosine - nx * frame.sine;
-  }
-}
-
 /// The run of sorted beams that an edge covers is [first, last), or where last < first two runs:
 /// [first, all) and [0, last), across the bearing pi.
 struct Run {
@@ -156,26 +119,6 @@ void projectEdges(const std::vector<VisibleEdgeIndex::Edge>& edges, const std::u
     left[i] = atan2Polynomial(by, bx) - frame.heading;
     along[i] = nx * frame.cosine + ny * frame.sine;
     across[i] = ny * frame.cosine - nx * frame.sine;
-  }
-}
-
-/// Calls run(edge, first, last) for each run of sorted beams that an edge covers.
-template <class Run>
-inline __attribute__((always_inline)) void forEachRun(const SeenEdges& edges,
-                                                      const BeamPattern& beams, Run&& run) {
-  for (std::size_t e = 0; e < edges.count; ++e) {
-    float from = edges.right[e] - kSlack, to = edges.left[e] + kSlack;
-    if (from < -kPi) from += 2.0F * kPi;
-    if (from >= kPi) from -= 2.0F * kPi;
-    if (to < -kPi) to += 2.0F * kPi;
-    if (to >= kPi) to -= 2.0F * kPi;
-    const std::size_t first = beams.firstFrom(from), last = beams.firstFrom(to);
-    if (from <= to) {
-      run(e, first, last);
-    } else {  // across the bearing pi
-      run(e, first, beams.size());
-      run(e, 0, last);
-    }
   }
 }
 
