@@ -21,4 +21,11 @@ inline void requirePositive(const char* field, double value) {
                            ", not positive and finite");
 }
 
+/// \throws InvalidParamsError unless the value is finite and not below zero.
+inline void requireNotNegative(const char* field, double value) {
+  if (value >= 0.0 && std::isfinite(value)) return;
+  throw InvalidParamsError(std::string(field) + " is " + std::to_string(value) +
+                           ", not zero or positive and finite");
+}
+
 }  // namespace mrpt_polyloc

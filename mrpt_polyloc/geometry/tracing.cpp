@@ -2,6 +2,7 @@
 #include <mrpt_polyloc/geometry/border_chains.h>
 #include <mrpt_polyloc/geometry/chain_simplification.h>
 #include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/geometry/ring_assembly.h>
 #include <mrpt_polyloc/geometry/tracing.h>
 
@@ -17,13 +18,6 @@ std::string toText(double value) {
   std::ostringstream text;
   text << value;
   return text.str();
-}
-
-void checkNotNegative(double value, const char* field) {
-  if (!std::isfinite(value) || value < 0.0) {
-    throw InvalidParamsError(std::string("TracingParams::") + field + " = " + toText(value) +
-                             " is not in [0, inf)");
-  }
 }
 
 void checkBitmap(const OccupancyBitmap& bitmap) {
@@ -64,9 +58,9 @@ LatticePlacement placementOf(const OccupancyBitmap& bitmap) {
 }  // namespace
 
 void TracingParams::check() const {
-  checkNotNegative(tolerance_cells, "tolerance_cells");
-  checkNotNegative(min_component_area, "min_component_area");
-  checkNotNegative(max_filled_unknown_area, "max_filled_unknown_area");
+  requireNotNegative("tolerance_cells", tolerance_cells);
+  requireNotNegative("min_component_area", min_component_area);
+  requireNotNegative("max_filled_unknown_area", max_filled_unknown_area);
 }
 
 PolygonMap traceBitmap(const OccupancyBitmap& bitmap, const TracingParams& params) {
