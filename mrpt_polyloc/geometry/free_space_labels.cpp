@@ -187,7 +187,8 @@ FreeSpaceLabels labelFreeSpace(const PlanarRegions& regions, const std::vector<C
       labels.free_area[static_cast<std::size_t>(polygon)] += regions.region_area[at];
       if (labels.free_of[at] == FreeSpaceLabels::kNotFree) {
         labels.free_of[at] = polygon;
-      } else {
+      } else if (labels.overlapping_polygons.empty() ||
+                 labels.overlapping_polygons.back().region != region) {
         labels.overlapping_polygons.push_back({region, labels.free_of[at], polygon});
       }
     }

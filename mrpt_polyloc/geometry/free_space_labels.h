@@ -32,7 +32,7 @@ struct FreeSpaceLabels {
   std::vector<Trouble> hole_outside;
   /// Regions of two needed holes of one polygon.
   std::vector<Trouble> overlapping_holes;
-  /// Regions of free space of two polygons.
+  /// Regions of free space of several polygons, of which two are named.
   std::vector<Trouble> overlapping_polygons;
 };
 

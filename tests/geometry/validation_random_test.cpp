@@ -48,11 +48,15 @@ bool isSimple(const std::vector<TPoint2D>& ring) {
   return true;
 }
 
-/// Even-odd inside the outer ring and in no hole.
-bool isFree(const RawMap& raw, const TPoint2D& p) {
+/// Of how many polygons a point is inside the outer ring and in no hole, all read even-odd.
+int freeCount(const RawMap& raw, const TPoint2D& p) {
   const auto is_inside = [&](const Ring& ring) { return windingNumber(ring.vertices, p) % 2 != 0; };
-  return is_inside(raw.polygons[0].outer) &&
-         std::none_of(raw.polygons[0].holes.begin(), raw.polygons[0].holes.end(), is_inside);
+  int count = 0;
+  for (const RawPolygon& polygon : raw.polygons) {
+    count += is_inside(polygon.outer) &&
+             std::none_of(polygon.holes.begin(), polygon.holes.end(), is_inside);
+  }
+  return count;
 }
 
 /// The fraction of random points where a map is not what the even-odd reading of its rings says.
@@ -62,7 +66,7 @@ double disagreement(const RawMap& raw, const PolygonMap& map, std::mt19937& rand
   constexpr int kSamples = 300;
   for (int i = 0; i < kSamples; ++i) {
     const TPoint2D p(coordinate(random), coordinate(random));
-    wrong += map.contains(p) != isFree(raw, p);
+    wrong += static_cast<int>(map.contains(p)) != freeCount(raw, p);
   }
   return static_cast<double>(wrong) / kSamples;
 }
@@ -157,6 +161,83 @@ TEST(ValidationRandom, RepairedMapsAreSoundAndMeanWhatTheirRingsSaid) {
   EXPECT_GT(maps, 500);
   EXPECT_GT(with_repairs, 200);
   std::cout << maps << " maps, " << with_repairs << " of them repaired\n";
+}
+
+TEST(ValidationRandom, SeveralPolygonsAreAcceptedOnlyWithoutOverlap) {
+  std::mt19937 random(4);
+  int accepted = 0, refused = 0;
+  for (int i = 0; i < 6000; ++i) {
+    SCOPED_TRACE(i);
+    RawMap raw;
+    for (int k = 0; k < 2; ++k) {
+      raw.polygons.push_back({wallRing(randomGridRing(random, 4)), {}});
+      if (random() % 3 == 0) {
+        raw.polygons.back().holes.push_back(wallRing(randomGridRing(random, 4)));
+      }
+    }
+    const MapInspection inspection = inspectMap(raw);
+    if (!inspection.map) {
+      ++refused;
+      continue;
+    }
+    ++accepted;
+    const std::vector<OracleEdge> edges = edgesOf(*inspection.map);
+    ASSERT_EQ(countMeetings(edges, Meeting::cross), 0U);
+    ASSERT_EQ(countMeetings(edges, Meeting::overlap), 0U);
+    ASSERT_EQ(disagreement(raw, *inspection.map, random), 0.0);
+  }
+  EXPECT_GT(accepted, 100);
+  EXPECT_GT(refused, 100);
+  std::cout << accepted << " accepted, " << refused << " refused\n";
+}
+
+/// Whether p lies on the segment ab, but for rounding.
+bool isOn(const TPoint2D& a, const TPoint2D& b, const TPoint2D& p) {
+  return std::hypot(p.x - a.x, p.y - a.y) + std::hypot(p.x - b.x, p.y - b.y) <
+         std::hypot(b.x - a.x, b.y - a.y) + 1e-9;
+}
+
+TEST(ValidationRandom, EdgesKeepTheirKinds) {
+  std::mt19937 random(5);
+  int open_edges = 0, rebuilt = 0;
+  for (int i = 0; i < 6000; ++i) {
+    SCOPED_TRACE(i);
+    RawMap raw = randomGridMap(random, 4);
+    if (i % 2 == 0) {  // holes in a hall: most are united, or joined to its walls
+      raw.polygons[0].outer = wallRing(rectangle(0, 0, kCells * kSpacing, kCells * kSpacing));
+    }
+    const auto shuffle = [&](Ring& ring) {
+      for (EdgeKind& kind : ring.kinds) kind = random() % 2 == 0 ? EdgeKind::open : EdgeKind::wall;
+    };
+    shuffle(raw.polygons[0].outer);
+    for (Ring& hole : raw.polygons[0].holes) shuffle(hole);
+    const MapInspection inspection = inspectMap(raw);
+    if (!inspection.map) continue;
+    // What is removed or dropped on the way has no say in the kind of what it lay on.
+    const auto is_removal = [](const Repair& repair) {
+      return repair.what.find("removed") == 0 || repair.what.find("dropped") == 0;
+    };
+    if (std::any_of(inspection.repairs.begin(), inspection.repairs.end(), is_removal)) continue;
+    rebuilt += !inspection.repairs.empty();
+    for (const Ring* ring : inspection.map->rings()) {
+      for (std::size_t k = 0; k < ring->size(); ++k) {
+        const TPoint2D& a = ring->vertices[k];
+        const TPoint2D& b = ring->vertices[(k + 1) % ring->size()];
+        bool is_wall = false, is_found = false;
+        const std::vector<OracleEdge> edges = edgesOf(raw);
+        for (const OracleEdge& edge : edges) {
+          if (!isOn(edge.a, edge.b, a) || !isOn(edge.a, edge.b, b)) continue;
+          is_found = true;
+          is_wall |= edge.kind == EdgeKind::wall;
+        }
+        ASSERT_TRUE(is_found);
+        ASSERT_EQ(ring->kinds[k], is_wall ? EdgeKind::wall : EdgeKind::open);
+        open_edges += !is_wall;
+      }
+    }
+  }
+  EXPECT_GT(open_edges, 300);
+  EXPECT_GT(rebuilt, 30);
 }
 
 TEST(ValidationRandom, ShakenStaircasesAreRepaired) {

@@ -399,6 +399,12 @@ TEST(Validation, ManyNestedHolesEndWell) {
   EXPECT_EQ(repaired.defects.size(), 398U);
 }
 
+TEST(Validation, ManyNestedComponentsEndWell) {
+  RawMap raw;
+  for (int i = 0; i < 400; ++i) raw = raw + rawMap(rectangle(i, i, 1000 - i, 1000 - i));
+  EXPECT_THAT(refusals(raw), testing::SizeIs(399));  // one for each region of several
+}
+
 TEST(Validation, NamesPlacesToTheMillimetre) {
   EXPECT_EQ(toString(Defect{"spike", {1.23456, -0.5}}), "spike at (1.235, -0.500)");
   EXPECT_THAT(toString(Defect{"spike", {1e308, 0}}), HasSubstr("spike at (1000"));

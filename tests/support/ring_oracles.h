@@ -43,12 +43,12 @@ inline Meeting meetingOf(const TPoint2D& a, const TPoint2D& b, const TPoint2D& c
 /// Edges of all rings of a map.
 struct OracleEdge {
   TPoint2D a, b;
-  const Ring* ring;
+  EdgeKind kind;
 };
 
 inline void appendEdges(const Ring& ring, std::vector<OracleEdge>& edges) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    edges.push_back({ring.vertices[i], ring.vertices[(i + 1) % ring.size()], &ring});
+    edges.push_back({ring.vertices[i], ring.vertices[(i + 1) % ring.size()], ring.kinds[i]});
   }
 }
 
