@@ -2,7 +2,6 @@
 #include <mrpt_polyloc/mrpt_bridge/GzInputStream.h>
 #include <mrpt_polyloc/mrpt_bridge/carmen.h>
 #include <mrpt_polyloc/mrpt_bridge/carmen_line.h>
-#include <mrpt_polyloc/mrpt_bridge/numbers.h>
 #include <mrpt_polyloc/mrpt_bridge/readings.h>
 #include <mrpt_polyloc/mrpt_bridge/sensor_labels.h>
 

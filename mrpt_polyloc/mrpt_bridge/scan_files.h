@@ -18,8 +18,8 @@ struct ScanFileOptions {
 
 /// All laser scans of a log, in file order: .rawlog (action/sensory-frame or observations only),
 /// CARMEN .log/.clf, each plain or gzipped.
-/// \throws FormatError naming file and place (object or line) for a missing, empty, truncated or
-/// foreign file, an unknown extension, several sensor labels where none is chosen, a label that
+/// \throws FormatError naming file and place (object, line or byte) for a missing, empty, truncated
+/// or foreign file, an unknown extension, several sensor labels where none is chosen, a label that
 /// does not occur, a sensor that is not planar, a log without scans. InvalidParamsError for a field
 /// of view out of range.
 std::vector<RangeScan> loadScans(const std::string& path, const ScanFileOptions& options = {});
