@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/cpu_dispatch.h>
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/polar/CirclePlan.h>
 #include <mrpt_polyloc/polar/angles.h>
@@ -48,6 +49,16 @@ bool isFiveSmooth(std::size_t k) {
   for (const std::size_t prime : {2U, 3U, 5U})
     while (k % prime == 0) k /= prime;
   return k == 1;
+}
+
+/// product_j = conj(a_j) b_j for n complex numbers. Written out: std::complex's own product checks
+/// for NaN, which keeps it from being vectorised.
+POLYLOC_HOT_LOOP
+void multiplyConjugate(const float* a, const float* b, float* product, std::size_t n) {
+  for (std::size_t j = 0; j < 2 * n; j += 2) {
+    product[j] = a[j] * b[j] + a[j + 1] * b[j + 1];
+    product[j + 1] = a[j] * b[j + 1] - a[j + 1] * b[j];
+  }
 }
 
 // FFTW's planner is not thread-safe, its execution is.
@@ -119,13 +130,8 @@ const float* CirclePlan::correlation(const std::complex<float>* f,
                                      const std::complex<float>* g) const {
   Buffers& buffers = threadBuffers(size());
   float* const product = buffers.spectrum.get();
-  // Written out: std::complex's product checks for NaN, which keeps it from being vectorised.
-  const float* const a = reinterpret_cast<const float*>(f);
-  const float* const b = reinterpret_cast<const float*>(g);
-  for (std::size_t j = 0; j < 2 * spectrumSize(); j += 2) {
-    product[j] = a[j] * b[j] + a[j + 1] * b[j + 1];
-    product[j + 1] = a[j] * b[j + 1] - a[j + 1] * b[j];
-  }
+  multiplyConjugate(reinterpret_cast<const float*>(f), reinterpret_cast<const float*>(g), product,
+                    spectrumSize());
   fftwf_execute_dft_c2r(transforms_->backward, asFftw(product), buffers.samples.get());
   return buffers.samples.get();
 }

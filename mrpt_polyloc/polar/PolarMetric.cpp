@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/cpu_dispatch.h>
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
 
@@ -17,31 +18,64 @@ void checkSameSize(const SampledPolarFunction& f, const SampledPolarFunction& g)
                              std::to_string(g.size()) + " samples cannot be compared");
 }
 
-// Sums run in lanes of their own, so that the compiler may vectorise them without reordering.
+// Sums and maxima run in lanes of their own, so that the compiler may vectorise them without
+// reordering.
 constexpr std::size_t kLanes = 8;
 
-template <class Term>
-double laneSum(std::size_t n, Term term) {
-  std::array<double, kLanes> lanes{};
-  std::size_t i = 0;
-  for (; i + kLanes <= n; i += kLanes)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) lanes[lane] += term(i + lane);
+double total(const std::array<double, kLanes>& lanes) {
   double sum = 0.0;
-  for (; i < n; ++i) sum += term(i);
   for (const double lane : lanes) sum += lane;
   return sum;
 }
 
-/// Sum of (f_i - g_i)^2 over n samples; a mask weighs the terms, null stands for ones.
-double squaredDifference(const float* f, const float* g, const float* mask, std::size_t n) {
-  const auto difference = [=](std::size_t i) {
-    return static_cast<double>(f[i]) - static_cast<double>(g[i]);
-  };
-  if (mask == nullptr)
-    return laneSum(n, [=](std::size_t i) { return difference(i) * difference(i); });
-  return laneSum(n, [=](std::size_t i) {
-    return static_cast<double>(mask[i]) * difference(i) * difference(i);
-  });
+/// Sum of (f_i - g_i)^2 over n samples.
+POLYLOC_HOT_LOOP
+double squaredDifference(const float* f, const float* g, std::size_t n) {
+  std::array<double, kLanes> lanes{};
+  std::size_t i = 0;
+  for (; i + kLanes <= n; i += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const double e = static_cast<double>(f[i + lane]) - static_cast<double>(g[i + lane]);
+      lanes[lane] += e * e;
+    }
+  for (; i < n; ++i) {
+    const double e = static_cast<double>(f[i]) - static_cast<double>(g[i]);
+    lanes[0] += e * e;
+  }
+  return total(lanes);
+}
+
+/// Sum of m_i (f_i - g_i)^2 over n samples.
+POLYLOC_HOT_LOOP
+double maskedSquaredDifference(const float* f, const float* g, const float* mask, std::size_t n) {
+  std::array<double, kLanes> lanes{};
+  std::size_t i = 0;
+  for (; i + kLanes <= n; i += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const double e = static_cast<double>(f[i + lane]) - static_cast<double>(g[i + lane]);
+      lanes[lane] += static_cast<double>(mask[i + lane]) * e * e;
+    }
+  for (; i < n; ++i) {
+    const double e = static_cast<double>(f[i]) - static_cast<double>(g[i]);
+    lanes[0] += static_cast<double>(mask[i]) * e * e;
+  }
+  return total(lanes);
+}
+
+/// The greatest of n > 0 numbers.
+POLYLOC_HOT_LOOP
+float greatest(const float* values, std::size_t n) {
+  constexpr std::size_t kWide = 32;
+  std::array<float, kWide> lanes;
+  lanes.fill(values[0]);
+  std::size_t i = 0;
+  for (; i + kWide <= n; i += kWide)
+    for (std::size_t lane = 0; lane < kWide; ++lane)
+      lanes[lane] = values[i + lane] > lanes[lane] ? values[i + lane] : lanes[lane];
+  for (; i < n; ++i) lanes[0] = values[i] > lanes[0] ? values[i] : lanes[0];
+  float best = lanes[0];
+  for (const float lane : lanes) best = lane > best ? lane : best;
+  return best;
 }
 
 /// Sum_i (f_{i-s} - g_i)^2 over the valid samples of f; g is complete.
@@ -50,33 +84,35 @@ double squaredDifferenceTurned(const SampledPolarFunction& f, const SampledPolar
   const std::size_t rest = f.size() - s;
   const float* const a = f.samples().data();
   const float* const b = g.samples().data();
-  const float* const mask = f.isComplete() ? nullptr : f.mask().data();
-  return squaredDifference(a, b + s, mask, rest) +
-         squaredDifference(a + rest, b, mask == nullptr ? nullptr : mask + rest, s);
+  if (f.isComplete()) return squaredDifference(a, b + s, rest) + squaredDifference(a + rest, b, s);
+  const float* const mask = f.mask().data();
+  return maskedSquaredDifference(a, b + s, mask, rest) +
+         maskedSquaredDifference(a + rest, b, mask + rest, s);
 }
 
 double toDistance(double squared_difference, std::size_t k) {
   return std::sqrt(kTwoPi / static_cast<double>(k) * std::max(squared_difference, 0.0));
 }
 
-/// For every rotation s: gain[s] = constant - Sum_i (f_{i-s} - g_i)^2 / 2, and how far it may be
-/// off by rounding.
+/// For every rotation s: constant - Sum_i (f_{i-s} - g_i)^2 / 2, and how far it may be off by
+/// rounding. The values belong to the calling thread, until it correlates again.
 struct Gains {
-  std::vector<float> values;
-  double error = 0.0;
+  const float* values;
+  double error;
 };
 
 Gains gainsOf(const SampledPolarFunction& f, const SampledPolarFunction& g) {
   const std::size_t k = f.size();
   const CirclePlan& plan = f.plan();
-  Gains gains;
-  const float* const products = plan.correlation(f.spectrum().data(), g.spectrum().data());
-  gains.values.assign(products, products + k);
+  Gains gains{};
   gains.error = plan.correlationError() * f.spectrumNorm() * g.spectrumNorm();
+  gains.values = plan.correlation(f.spectrum().data(), g.spectrum().data());
   if (f.isComplete()) return gains;
 
   // Which samples of g are compared depends on the rotation, and so does the sum of their squares;
   // the constant part of the squares does not matter and would only cost digits.
+  thread_local std::vector<float> sums;
+  sums.assign(gains.values, gains.values + k);
   std::vector<float> squares(k);
   const double mean_square = g.squaredNorm() / kTwoPi;
   double norm = 0.0;
@@ -88,7 +124,8 @@ Gains gainsOf(const SampledPolarFunction& f, const SampledPolarFunction& g) {
   }
   const auto spectrum = plan.spectrum(squares.data());
   const float* const seen_squares = plan.correlation(f.maskSpectrum().data(), spectrum.data());
-  for (std::size_t s = 0; s < k; ++s) gains.values[s] -= 0.5F * seen_squares[s];
+  for (std::size_t s = 0; s < k; ++s) sums[s] -= 0.5F * seen_squares[s];
+  gains.values = sums.data();
   gains.error +=
       0.5 * plan.correlationError() * std::sqrt(norm * static_cast<double>(f.validCount()));
   return gains;
@@ -111,39 +148,26 @@ IndexRange indicesIn(const RotationRange& range, std::size_t k) {
           std::min(k, static_cast<std::size_t>(last - first) + 1)};
 }
 
-/// Calls use(s) for all rotations of a range whose gain is within `margin` of the best.
+/// Calls use(s) for all rotations of a range whose gain, of k, is within `margin` of the best.
 template <class Use>
-void forBestGains(const std::vector<float>& gains, IndexRange range, double margin, Use use) {
-  constexpr std::size_t kBlock = 16;
-  const std::size_t k = gains.size();
+void forBestGains(const float* gains, std::size_t k, IndexRange range, double margin, Use use) {
   // The range as one or two runs without a wrap.
   const std::size_t head = std::min(range.count, k - range.first);
-  const std::array<IndexRange, 2> runs{{{range.first, head}, {0, range.count - head}}};
-
-  float best = gains[range.first];
-  for (const IndexRange& run : runs) {
-    const float* const begin = gains.data() + run.first;
-    std::array<float, kBlock> lanes;
-    lanes.fill(best);
-    std::size_t i = 0;
-    for (; i + kBlock <= run.count; i += kBlock)
-      for (std::size_t lane = 0; lane < kBlock; ++lane)
-        lanes[lane] = begin[i + lane] > lanes[lane] ? begin[i + lane] : lanes[lane];
-    for (; i < run.count; ++i) best = std::max(best, begin[i]);
-    for (const float lane : lanes) best = std::max(best, lane);
-  }
+  float best = greatest(gains + range.first, head);
+  if (head < range.count) best = std::max(best, greatest(gains, range.count - head));
   const auto threshold = static_cast<float>(static_cast<double>(best) - margin);
-  for (const IndexRange& run : runs) {
-    const float* const begin = gains.data() + run.first;
-    for (std::size_t i = 0; i < run.count; i += kBlock) {
-      const std::size_t end = std::min(i + kBlock, run.count);
+  const auto search = [&](std::size_t begin, std::size_t end) {
+    constexpr std::size_t kBlock = 32;  // most blocks hold none
+    for (std::size_t i = begin; i < end; i += kBlock) {
+      const std::size_t stop = std::min(i + kBlock, end);
       unsigned any = 0;
-      for (std::size_t j = i; j < end; ++j) any |= begin[j] >= threshold ? 1U : 0U;
-      if (any == 0) continue;
-      for (std::size_t j = i; j < end; ++j)
-        if (begin[j] >= threshold) use(run.first + j);
+      for (std::size_t j = i; j < stop; ++j) any |= gains[j] >= threshold ? 1U : 0U;
+      for (std::size_t j = i; any != 0 && j < stop; ++j)
+        if (gains[j] >= threshold) use(j);
     }
-  }
+  };
+  search(range.first, range.first + head);
+  search(0, range.count - head);
 }
 
 /// Where the parabola through the gains at -1, 0, 1 has its top, within half a step.
@@ -157,10 +181,11 @@ RotationMatch matchAgainstComplete(const SampledPolarFunction& f, const SampledP
                                    const RotationRange& range) {
   const std::size_t k = f.size();
   const Gains gains = gainsOf(f, g);
+  const IndexRange indices = indicesIn(range, k);
   RotationMatch match;
   double least = -1.0;
   // Both the best gain and any other may be off, by the error of the sum and of the threshold.
-  forBestGains(gains.values, indicesIn(range, k), 4.0 * gains.error, [&](std::size_t s) {
+  forBestGains(gains.values, k, indices, 4.0 * gains.error, [&](std::size_t s) {
     const double value = squaredDifferenceTurned(f, g, s);
     if (least >= 0.0 && (value > least || (value == least && s > match.index))) return;
     least = value;
@@ -183,16 +208,16 @@ double distance(const SampledPolarFunction& f, const SampledPolarFunction& g) {
   const std::size_t k = f.size();
   const float* const a = f.samples().data();
   const float* const b = g.samples().data();
-  if (f.isComplete() && g.isComplete()) return toDistance(squaredDifference(a, b, nullptr, k), k);
+  if (f.isComplete() && g.isComplete()) return toDistance(squaredDifference(a, b, k), k);
   if (f.isComplete() || g.isComplete()) {
     const float* const mask = f.isComplete() ? g.mask().data() : f.mask().data();
-    return toDistance(squaredDifference(a, b, mask, k), k);
+    return toDistance(maskedSquaredDifference(a, b, mask, k), k);
   }
   std::vector<float> common(k);
   for (std::size_t i = 0; i < k; ++i) common[i] = f.mask()[i] * g.mask()[i];
   if (std::find(common.begin(), common.end(), 1.0F) == common.end())
     throw InvalidParamsError("the views have no valid sample in common");
-  return toDistance(squaredDifference(a, b, common.data(), k), k);
+  return toDistance(maskedSquaredDifference(a, b, common.data(), k), k);
 }
 
 RotationMatch distanceOverRotations(const SampledPolarFunction& f, const SampledPolarFunction& g,

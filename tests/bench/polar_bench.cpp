@@ -2,9 +2,10 @@
 
 #include <mrpt_polyloc/polar/FourierBound.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
-#include <tests/support/star_polygons.h>
 
 #include <benchmark/benchmark.h>
+
+#include <tests/support/star_polygons.h>
 
 namespace {
 
@@ -47,8 +48,7 @@ void sampledPartialOverRotations(benchmark::State& state) {
   }
   const SampledPolarFunction scan(PolarFunction::fromBeams(bearings, ranges), 360);
   std::size_t i = 0;
-  for (auto _ : state)
-    benchmark::DoNotOptimize(distanceOverRotations(scan, views[i % 64])), ++i;
+  for (auto _ : state) benchmark::DoNotOptimize(distanceOverRotations(scan, views[i % 64])), ++i;
 }
 BENCHMARK(sampledPartialOverRotations);
 
@@ -106,5 +106,3 @@ void exactFourierFeature(benchmark::State& state) {
 BENCHMARK(exactFourierFeature);
 
 }  // namespace
-
-BENCHMARK_MAIN();
