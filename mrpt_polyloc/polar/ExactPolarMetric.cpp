@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/cpu_dispatch.h>
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/polar/ExactPolarMetric.h>
 #include <mrpt_polyloc/polar/angles.h>
@@ -14,14 +15,21 @@ using mrpt::math::TPoint2D;
 using Piece = PolarFunction::Piece;
 using PieceKind = PolarFunction::PieceKind;
 
-double dot(const TPoint2D& a, const TPoint2D& b) {
+// What the walk below calls must be compiled for its machine along with it.
+#if defined(__GNUC__)
+#define POLYLOC_INLINE inline __attribute__((always_inline))
+#else
+#define POLYLOC_INLINE inline
+#endif
+
+POLYLOC_INLINE double dot(const TPoint2D& a, const TPoint2D& b) {
   return a.x * b.x + a.y * b.y;
 }
-double cross(const TPoint2D& a, const TPoint2D& b) {
+POLYLOC_INLINE double cross(const TPoint2D& a, const TPoint2D& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-TPoint2D rotated(const TPoint2D& v, const TPoint2D& rotation) {
+POLYLOC_INLINE TPoint2D rotated(const TPoint2D& v, const TPoint2D& rotation) {
   return {rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y};
 }
 
@@ -29,13 +37,14 @@ TPoint2D rotated(const TPoint2D& v, const TPoint2D& rotation) {
 struct Interval {
   TPoint2D a, b;
   double width;
-
-  double halfSine() const { return std::sin(0.5 * width); }
-  /// sin(width) from halfSine(), for widths up to pi.
-  static double sine(double half_sine) {
-    return 2.0 * half_sine * std::sqrt(std::max(0.0, 1.0 - half_sine * half_sine));
-  }
 };
+
+/// sin(x) for 0 <= x <= pi / 2, quickly where scans of many beams need it.
+POLYLOC_INLINE double sine(double x) {
+  const double q = x * x;
+  if (q > 0.01) return std::sin(x);
+  return x + x * q * ((-1.0 / 6 + q * (1.0 / 120)) + q * q * (-1.0 / 5040 + q * (1.0 / 362880)));
+}
 
 /// A piece of either function in the common frame.
 struct Side {
@@ -53,12 +62,10 @@ struct Side {
 constexpr double kSeriesSquare = 0.01;
 
 /// (artanh(x) / x - 1) / x^2 = 1/3 + x^2/5 + x^4/7 + ... for x^2 <= kSeriesSquare.
-double artanhRest(double square) {
-  const double q = square;
-  return 1.0 / 3 +
-         q * (1.0 / 5 +
-              q * (1.0 / 7 +
-                   q * (1.0 / 9 + q * (1.0 / 11 + q * (1.0 / 13 + q * (1.0 / 15 + q / 17))))));
+POLYLOC_INLINE double artanhRest(double square) {
+  const double q = square, q2 = q * q;
+  return (1.0 / 3 + q * (1.0 / 5)) + q2 * (1.0 / 7 + q * (1.0 / 9)) +
+         q2 * q2 * ((1.0 / 11 + q * (1.0 / 13)) + q2 * (1.0 / 15 + q * (1.0 / 17)));
 }
 
 /// Integral of (f - g)^2 for two walls.
@@ -67,20 +74,21 @@ double artanhRest(double square) {
 /// the integral is that of (d1 / (c + s T) - d2)^2 dT: about the middle of the T-interval, a
 /// quadratic form in d1 / (c + s T) - d2 there and in s, neither of which suffers when the walls
 /// are parallel or the same.
-double wallAgainstWall(const Side& f, const Side& g, const Interval& interval) {
+POLYLOC_INLINE double wallAgainstWall(const Side& f, const Side& g, const Interval& interval) {
   double fa = f.cosine(interval.a), fb = f.cosine(interval.b);
   double ga = g.cosine(interval.a), gb = g.cosine(interval.b);
   double f_distance = f.distance, g_distance = g.distance;
   double s = cross(g.normal, f.normal);
-  if (fa * fb > ga * gb) {  // the less grazing wall measures the interval
+  constexpr double kGrazing = 1e-4;
+  if (ga * gb < kGrazing && fa * fb > ga * gb) {  // the less grazing wall measures the interval
     std::swap(fa, ga);
     std::swap(fb, gb);
     std::swap(f_distance, g_distance);
     s = -s;
   }
   const double inverse = 1.0 / (ga * gb);
-  const double length = Interval::sine(interval.halfSine()) * inverse;  // T_b - T_a
-  const double at_a = fa * gb * inverse, at_b = fb * ga * inverse;      // c + s T
+  const double length = std::max(0.0, cross(interval.a, interval.b)) * inverse;  // T_b - T_a
+  const double at_a = fa * gb * inverse, at_b = fb * ga * inverse;               // c + s T
   const double middle = 0.5 * (at_a + at_b);
   const double inverse_middle = 1.0 / middle;
   const double f_middle = f_distance * inverse_middle;
@@ -102,13 +110,17 @@ double wallAgainstWall(const Side& f, const Side& g, const Interval& interval) {
 }
 
 /// Integral of (f - radius)^2 for a wall and an arc.
-double wallAgainstArc(const Side& wall, double radius, const Interval& interval) {
+POLYLOC_INLINE double wallAgainstArc(const Side& wall, double radius, const Interval& interval) {
   const double cos_a = wall.cosine(interval.a), cos_b = wall.cosine(interval.b);
   const double sin_a = cross(wall.normal, interval.a), sin_b = cross(wall.normal, interval.b);
-  const double half_sine = interval.halfSine();
-  const double sine = Interval::sine(half_sine), versine = 2.0 * half_sine * half_sine;
+  // From the width, not from the vectors: the errors of neighbours must cancel, for here the small
+  // is the difference of the large.
+  const double half_sine = sine(0.5 * interval.width);
+  const double half_cosine = std::sqrt(std::max(0.0, 1.0 - half_sine * half_sine));
+  const double width_sine = 2.0 * half_sine * half_cosine;
+  const double versine = 2.0 * half_sine * half_sine;
   // The integral of 1 / cos is artanh(sin), a difference of which is artanh(y).
-  const double y = (sine * cos_a - versine * sin_a) / (versine + cos_a * cos_b);
+  const double y = (width_sine * cos_a - versine * sin_a) / (versine + cos_a * cos_b);
   double secant_integral;
   if (y * y < kSeriesSquare) {
     secant_integral = y + y * y * y * artanhRest(y * y);
@@ -119,11 +131,11 @@ double wallAgainstArc(const Side& wall, double radius, const Interval& interval)
     secant_integral = std::log(exponential(sin_b, cos_b) / exponential(sin_a, cos_a));
   }
   const double d = wall.distance;
-  return std::max(0.0, d * d * sine / (cos_a * cos_b) - 2.0 * radius * d * secant_integral +
+  return std::max(0.0, d * d * width_sine / (cos_a * cos_b) - 2.0 * radius * d * secant_integral +
                            radius * radius * interval.width);
 }
 
-double squaredDifference(const Side& f, const Side& g, const Interval& interval) {
+POLYLOC_INLINE double squaredDifference(const Side& f, const Side& g, const Interval& interval) {
   if (f.kind == PieceKind::wall)
     return g.kind == PieceKind::wall ? wallAgainstWall(f, g, interval)
                                      : wallAgainstArc(f, g.distance, interval);
@@ -138,6 +150,7 @@ struct SquaredDistance {
 };
 
 /// Walks along the pieces of g and of f turned, from one breakpoint of either to the next.
+POLYLOC_HOT_LOOP
 SquaredDistance squaredDistance(const PolarFunction& f, const PolarFunction& g, double rotation) {
   const double turn = wrapToTwoPi(rotation);
   const TPoint2D rotor(std::cos(turn), std::sin(turn));

@@ -1,5 +1,6 @@
 // Polar coordinate metric: ns per pair of views and per merged interval.
 
+#include <mrpt_polyloc/polar/ExactPolarMetric.h>
 #include <mrpt_polyloc/polar/FourierBound.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
 
@@ -104,5 +105,57 @@ void exactFourierFeature(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(fourierFeature(f, 16));
 }
 BENCHMARK(exactFourierFeature);
+
+std::vector<PolarFunction> randomFunctions(std::size_t directions) {
+  std::mt19937 random(1);
+  std::vector<PolarFunction> functions;
+  for (int i = 0; i < 64; ++i) functions.push_back(randomFunction(random, directions));
+  return functions;
+}
+
+/// Walls against walls, or against the sectors of a scan; `s/interval` is per merged interval.
+void exactAtOneRotation(benchmark::State& state, bool scan) {
+  auto functions = randomFunctions(static_cast<std::size_t>(state.range(0)));
+  const auto walls = functions;
+  if (scan)
+    for (auto& f : functions) {
+      std::vector<double> bearings, ranges;
+      for (int i = 0; i < 360; ++i) {
+        bearings.push_back(i * kPi / 180);
+        ranges.push_back(f.value(bearings.back()));
+      }
+      f = PolarFunction::fromBeams(bearings, ranges);
+    }
+  std::size_t i = 0;
+  double intervals = 0.0;
+  for (auto _ : state) {
+    const PolarFunction& f = functions[i % 64];
+    const PolarFunction& g = walls[(7 * i + 1) % 64];
+    benchmark::DoNotOptimize(distance(f, g, 0.01 * static_cast<double>(i)));
+    intervals += static_cast<double>(f.pieces().size() + g.pieces().size());
+    ++i;
+  }
+  state.counters["s/interval"] =
+      benchmark::Counter(intervals, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK_CAPTURE(exactAtOneRotation, walls, false)->Arg(50)->Arg(200);
+BENCHMARK_CAPTURE(exactAtOneRotation, sectors, true)->Arg(50);
+
+void certifiedOverRotations(benchmark::State& state) {
+  const auto functions = randomFunctions(40);
+  const double tolerance = 1.0 / static_cast<double>(state.range(0));
+  std::size_t i = 0;
+  double evaluations = 0.0;
+  for (auto _ : state) {
+    const auto match = distanceOverRotations(functions[i % 64], functions[(7 * i + 1) % 64], {},
+                                             CertificateParams{tolerance, 1000000});
+    benchmark::DoNotOptimize(match);
+    evaluations += static_cast<double>(match.evaluations);
+    ++i;
+  }
+  state.counters["evaluations"] =
+      benchmark::Counter(evaluations, benchmark::Counter::kAvgIterations);
+}
+BENCHMARK(certifiedOverRotations)->Arg(10)->Arg(100)->Unit(benchmark::kMillisecond);
 
 }  // namespace
