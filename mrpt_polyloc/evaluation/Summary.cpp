@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/evaluation/Summary.h>
+#include <mrpt_polyloc/polar/angles.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,6 @@ namespace mrpt_polyloc {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 struct PoseError {
   double distance;  // [m]
   double angle;     // [rad], in [0, pi]
@@ -18,7 +17,7 @@ struct PoseError {
 
 PoseError errorOf(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth) {
   return {std::hypot(pose.x - truth.x, pose.y - truth.y),
-          std::abs(std::remainder(pose.phi - truth.phi, 2.0 * kPi))};
+          std::abs(std::remainder(pose.phi - truth.phi, kTwoPi))};
 }
 
 double fraction(std::size_t part, std::size_t whole) {
