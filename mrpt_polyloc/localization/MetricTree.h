@@ -1,9 +1,8 @@
 #pragma once
 
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/geometry/params_check.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -66,8 +65,9 @@ class MetricTree {
     if (radii_.size() != objects_.size())
       throw InvalidParamsError(std::to_string(radii_.size()) + " radii for " +
                                std::to_string(objects_.size()) + " objects");
-    for (std::size_t i = 0; i < radii_.size(); ++i) checkLength(radii_[i], "radius", i);
-    checkLength(metric_error_, "metric_error", 0);
+    for (std::size_t i = 0; i < radii_.size(); ++i)
+      requireNotNegative(("radius " + std::to_string(i)).c_str(), radii_[i]);
+    requireNotNegative("metric_error", metric_error_);
     build(seed);
   }
 
@@ -142,12 +142,6 @@ class MetricTree {
     double to_home;
     bool operator<(const Visit& other) const { return bound > other.bound; }  // least on top
   };
-
-  static void checkLength(double value, const char* what, std::size_t index) {
-    if (!(value >= 0.0) || !std::isfinite(value))
-      throw InvalidParamsError(std::string(what) + " " + std::to_string(index) + " = " +
-                               std::to_string(value) + " must be finite and not negative");
-  }
 
   double evaluateForBuild(std::size_t a, std::size_t b) {
     ++build_evaluations_;

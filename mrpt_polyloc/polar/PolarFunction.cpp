@@ -1,4 +1,4 @@
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/polar/PolarFunction.h>
 #include <mrpt_polyloc/polar/angles.h>
 
@@ -378,8 +378,7 @@ PolarFunction PolarFunction::turned(double angle) const {
 }
 
 PolarFunction PolarFunction::scaled(double factor) const {
-  if (!(factor > 0.0) || !std::isfinite(factor))
-    throw InvalidParamsError("factor = " + std::to_string(factor) + " must be positive and finite");
+  requirePositive("factor", factor);
   std::vector<Piece> pieces = pieces_;
   for (Piece& piece : pieces) piece.distance *= factor;
   return PolarFunction(std::move(pieces));

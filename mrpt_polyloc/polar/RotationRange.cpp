@@ -1,16 +1,14 @@
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/polar/RotationRange.h>
 
-#include <string>
+#include <limits>
 
 namespace mrpt_polyloc {
 
 void RotationRange::check() const {
-  if (!std::isfinite(center))
-    throw InvalidParamsError("center = " + std::to_string(center) + " must be finite");
-  if (!(tolerance >= 0.0 && tolerance <= kPi))
-    throw InvalidParamsError("tolerance = " + std::to_string(tolerance) +
-                             " rad must be in [0, pi]");
+  constexpr double kMost = std::numeric_limits<double>::max();
+  requireInRange("center", center, -kMost, kMost);
+  requireInRange("tolerance", tolerance, 0.0, kPi);
 }
 
 }  // namespace mrpt_polyloc

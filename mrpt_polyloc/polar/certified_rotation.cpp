@@ -1,6 +1,6 @@
 // The minimum of the exact polar coordinate metric over rotations, by branch and bound.
 
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/polar/ExactPolarMetric.h>
 
 #include <algorithm>
@@ -165,9 +165,7 @@ class RotationSearch {
 }  // namespace
 
 void CertificateParams::check() const {
-  if (!(tolerance > 0.0) || !std::isfinite(tolerance))
-    throw InvalidParamsError("tolerance = " + std::to_string(tolerance) +
-                             " must be positive and finite");
+  requirePositive("tolerance", tolerance);
   if (max_evaluations < 1) throw InvalidParamsError("max_evaluations = 0 must be at least 1");
 }
 

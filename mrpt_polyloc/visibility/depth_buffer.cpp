@@ -35,6 +35,56 @@ inline __attribute__((always_inline)) float atan2Polynomial(float y, float x) {
   return y < 0.0F ? -p : p;
 }
 
+/// The run of sorted beams that an edge covers is [first, last), or where last < first two runs:
+/// [first, all) and [0, last), across the bearing pi.
+struct Run {
+  std::size_t first, last;
+  bool is_split;
+};
+
+inline __attribute__((always_inline)) Run runOf(const SeenEdges& edges, std::size_t e,
+                                                const BeamPattern& beams) {
+  float from = edges.right[e] - kSlack, to = edges.left[e] + kSlack;
+  if (from < -kPi) from += 2.0F * kPi;
+  if (from >= kPi) from -= 2.0F * kPi;
+  if (to < -kPi) to += 2.0F * kPi;
+  if (to >= kPi) to -= 2.0F * kPi;
+  return {beams.firstFrom(from), beams.firstFrom(to), from > to};
+}
+
+/// The arrays of a pattern, told to be apart from each other: else g++ leaves the loops scalar.
+struct Columns {
+  const float* __restrict__ cosines;
+  const float* __restrict__ sines;
+  float* __restrict__ inverse;
+  std::int32_t* __restrict__ nearest;
+};
+
+inline __attribute__((always_inline)) void raise(const Columns& columns, float along, float across,
+                                                 std::size_t first, std::size_t last) {
+  const float* __restrict__ cosines = columns.cosines;
+  const float* __restrict__ sines = columns.sines;
+  float* __restrict__ inverse = columns.inverse;
+  for (std::size_t i = first; i < last; ++i) {
+    const float value = along * cosines[i] + across * sines[i];
+    inverse[i] = std::max(inverse[i], value);
+  }
+}
+
+inline __attribute__((always_inline)) void raise(const Columns& columns, float along, float across,
+                                                 std::int32_t number, std::size_t first,
+                                                 std::size_t last) {
+  const float* __restrict__ cosines = columns.cosines;
+  const float* __restrict__ sines = columns.sines;
+  float* __restrict__ inverse = columns.inverse;
+  std::int32_t* __restrict__ nearest = columns.nearest;
+  for (std::size_t i = first; i < last; ++i) {
+    const float value = along * cosines[i] + across * sines[i];
+    nearest[i] = inverse[i] < value ? number : nearest[i];
+    inverse[i] = std::max(inverse[i], value);
+  }
+}
+
 }  // namespace
 
 POLYLOC_HOT_LOOP
@@ -72,57 +122,28 @@ void projectEdges(const std::vector<VisibleEdgeIndex::Edge>& edges, const std::u
   }
 }
 
-/// Calls run(edge, first, last) for each run of sorted beams that an edge covers.
-template <class Run>
-inline __attribute__((always_inline)) void forEachRun(const SeenEdges& edges,
-                                                      const BeamPattern& beams, Run&& run) {
-  for (std::size_t e = 0; e < edges.count; ++e) {
-    float from = edges.right[e] - kSlack, to = edges.left[e] + kSlack;
-    if (from < -kPi) from += 2.0F * kPi;
-    if (from >= kPi) from -= 2.0F * kPi;
-    if (to < -kPi) to += 2.0F * kPi;
-    if (to >= kPi) to -= 2.0F * kPi;
-    const std::size_t first = beams.firstFrom(from), last = beams.firstFrom(to);
-    if (from <= to) {
-      run(e, first, last);
-    } else {  // across the bearing pi
-      run(e, first, beams.size());
-      run(e, 0, last);
-    }
-  }
-}
-
 POLYLOC_HOT_LOOP
 void fillDepths(const SeenEdges& edges, const BeamPattern& beams, float* inverse) {
-  const float* cosines = beams.cosines();
-  const float* sines = beams.sines();
-  forEachRun(
-      edges, beams,
-      [&](std::size_t e, std::size_t first, std::size_t last) __attribute__((always_inline)) {
-        const float along = edges.along[e], across = edges.across[e];
-        for (std::size_t i = first; i < last; ++i) {
-          const float value = along * cosines[i] + across * sines[i];
-          inverse[i] = inverse[i] < value ? value : inverse[i];
-        }
-      });
+  const Columns columns{beams.cosines(), beams.sines(), inverse, nullptr};
+  for (std::size_t e = 0; e < edges.count; ++e) {
+    const Run run = runOf(edges, e, beams);
+    const float along = edges.along[e], across = edges.across[e];
+    raise(columns, along, across, run.first, run.is_split ? beams.size() : run.last);
+    if (run.is_split) raise(columns, along, across, 0, run.last);
+  }
 }
 
 POLYLOC_HOT_LOOP
 void fillDepths(const SeenEdges& edges, const BeamPattern& beams, float* inverse,
                 std::int32_t* nearest) {
-  const float* cosines = beams.cosines();
-  const float* sines = beams.sines();
-  forEachRun(
-      edges, beams,
-      [&](std::size_t e, std::size_t first, std::size_t last) __attribute__((always_inline)) {
-        const float along = edges.along[e], across = edges.across[e];
-        const auto number = static_cast<std::int32_t>(e);
-        for (std::size_t i = first; i < last; ++i) {
-          const float value = along * cosines[i] + across * sines[i];
-          nearest[i] = inverse[i] < value ? number : nearest[i];
-          inverse[i] = inverse[i] < value ? value : inverse[i];
-        }
-      });
+  const Columns columns{beams.cosines(), beams.sines(), inverse, nearest};
+  for (std::size_t e = 0; e < edges.count; ++e) {
+    const Run run = runOf(edges, e, beams);
+    const float along = edges.along[e], across = edges.across[e];
+    const auto number = static_cast<std::int32_t>(e);
+    raise(columns, along, across, number, run.first, run.is_split ? beams.size() : run.last);
+    if (run.is_split) raise(columns, along, across, number, 0, run.last);
+  }
 }
 
 }  // namespace mrpt_polyloc
