@@ -41,7 +41,7 @@ else
   echo "$0: missing packages, and neither root nor sudo to install them: ${missing[*]}" >&2
   exit 1
 fi
-apt_get=("${as_root[@]}" DEBIAN_FRONTEND=noninteractive apt-get -q -y)
+apt_get=("${as_root[@]}" DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=600)
 echo "installing ${missing[*]}"
 "${apt_get[@]}" update
 "${apt_get[@]}" install --no-install-recommends "${missing[@]}"
