@@ -1,0 +1,202 @@
+#include <mrpt_polyloc/geometry/constrained_delaunay.h>
+#include <mrpt_polyloc/geometry/errors.h>
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Constrained_triangulation_plus_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
+
+#include <array>
+#include <cstdint>
+#include <exception>
+#include <iterator>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace mrpt_polyloc {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_2;
+
+/// What a CGAL face gathers before it becomes a Triangulation::Face.
+struct FaceInfo {
+  std::int32_t index = Triangulation::kNone;
+  std::array<Passage, 3> passage{Passage::clear, Passage::clear, Passage::clear};
+  std::array<bool, 3> border{false, false, false};  ///< edge i belongs to a ring
+  bool is_free = false;
+};
+
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel,
+                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Delaunay =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
+using Cdt = CGAL::Constrained_triangulation_plus_2<Delaunay>;
+
+/// An inserted constraint and what it came from. Walls beyond have no free side.
+struct Constraint {
+  Cdt::Constraint_id id;
+  Passage passage;
+  bool is_ring_edge;
+};
+
+/// Inserts many points in an order that keeps each near the last (CGAL's insertion walks), and
+/// returns their vertices in the given order.
+std::vector<Cdt::Vertex_handle> insertPoints(Cdt& cdt, const std::vector<Point>& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  using Map = CGAL::Pointer_property_map<Point>::const_type;
+  CGAL::spatial_sort(
+      order.begin(), order.end(),
+      CGAL::Spatial_sort_traits_adapter_2<Kernel, Map>(CGAL::make_property_map(points)));
+  std::vector<Cdt::Vertex_handle> vertices(points.size());
+  Cdt::Face_handle hint;
+  for (const std::size_t i : order) {
+    vertices[i] = cdt.insert(points[i], hint);
+    hint = vertices[i]->face();
+  }
+  return vertices;
+}
+
+/// Gathers the chains of a map as points and edges, then inserts them.
+class Chains {
+ public:
+  void addRing(const Ring& ring) {
+    const std::size_t first = points_.size();
+    for (const TPoint2D& p : ring.vertices) points_.emplace_back(p.x, p.y);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Passage passage = ring.kinds[i] == EdgeKind::wall ? Passage::wall : Passage::open;
+      edges_.push_back({first + i, first + (i + 1) % ring.size(), passage, true});
+    }
+  }
+  void addWall(const Polyline& wall) {
+    const std::size_t first = points_.size();
+    for (const TPoint2D& p : wall) points_.emplace_back(p.x, p.y);
+    for (std::size_t i = 1; i < wall.size(); ++i) {
+      edges_.push_back({first + i - 1, first + i, Passage::wall, false});
+    }
+  }
+  std::vector<Constraint> insertInto(Cdt& cdt) const {
+    const std::vector<Cdt::Vertex_handle> vertices = insertPoints(cdt, points_);
+    std::vector<Constraint> constraints;
+    constraints.reserve(edges_.size());
+    for (const Edge& edge : edges_) {
+      if (vertices[edge.from] == vertices[edge.to]) continue;  // no length, no constraint
+      constraints.push_back({cdt.insert_constraint(vertices[edge.from], vertices[edge.to]),
+                             edge.passage, edge.is_ring_edge});
+    }
+    return constraints;
+  }
+
+ private:
+  struct Edge {
+    std::size_t from, to;
+    Passage passage;
+    bool is_ring_edge;
+  };
+  std::vector<Point> points_;
+  std::vector<Edge> edges_;
+};
+
+/// Marks the triangulation edges along each constraint, and the faces to the left of ring edges as
+/// free: seeds for the flood.
+std::vector<Cdt::Face_handle> markConstraints(Cdt& cdt,
+                                              const std::vector<Constraint>& constraints) {
+  std::vector<Cdt::Face_handle> seeds;
+  for (const Constraint& constraint : constraints) {
+    auto from = cdt.vertices_in_constraint_begin(constraint.id);
+    const auto end = cdt.vertices_in_constraint_end(constraint.id);
+    for (auto to = std::next(from); to != end; from = to++) {
+      Cdt::Face_handle face;
+      int i = 0;
+      if (!cdt.is_edge(*from, *to, face, i)) continue;
+      // is_edge() may give either side; the left one has the edge run from i + 1 to i + 2.
+      if (face->vertex(Cdt::ccw(i)) != *from) {
+        const Cdt::Face_handle other = face->neighbor(i);
+        i = cdt.mirror_index(face, i);
+        face = other;
+      }
+      const Cdt::Face_handle right = face->neighbor(i);
+      const int mirror = cdt.mirror_index(face, i);
+      const auto mark = [&](FaceInfo& info, int edge) {
+        const auto e = static_cast<std::size_t>(edge);
+        info.passage[e] = std::max(info.passage[e], constraint.passage);
+        info.border[e] = info.border[e] || constraint.is_ring_edge;
+      };
+      mark(face->info(), i);
+      mark(right->info(), mirror);
+      if (constraint.is_ring_edge) seeds.push_back(face);
+    }
+  }
+  return seeds;
+}
+
+/// Spreads "free" from the seeds over all faces that no ring edge parts from them.
+void floodFree(const Cdt& cdt, std::vector<Cdt::Face_handle> stack) {
+  while (!stack.empty()) {
+    const Cdt::Face_handle face = stack.back();
+    stack.pop_back();
+    if (cdt.is_infinite(face) || face->info().is_free) continue;
+    face->info().is_free = true;
+    for (int i = 0; i < 3; ++i) {
+      if (!face->info().border[static_cast<std::size_t>(i)]) stack.push_back(face->neighbor(i));
+    }
+  }
+}
+
+std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> flatten(const Cdt& cdt) {
+  std::vector<TPoint2D> vertices;
+  vertices.reserve(cdt.number_of_vertices());
+  for (const Cdt::Vertex_handle v : cdt.finite_vertex_handles()) {
+    v->info() = static_cast<std::int32_t>(vertices.size());
+    vertices.emplace_back(v->point().x(), v->point().y());
+  }
+  std::int32_t count = 0;
+  for (const Cdt::Face_handle f : cdt.finite_face_handles()) f->info().index = count++;
+  std::vector<Triangulation::Face> faces;
+  faces.reserve(static_cast<std::size_t>(count));
+  for (const Cdt::Face_handle f : cdt.finite_face_handles()) {
+    Triangulation::Face face{};
+    for (int i = 0; i < 3; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      face.vertex[k] = f->vertex(i)->info();
+      const Cdt::Face_handle neighbor = f->neighbor(i);
+      face.neighbor[k] = cdt.is_infinite(neighbor) ? Triangulation::kNone : neighbor->info().index;
+      face.passage[k] = f->info().passage[k];
+    }
+    face.is_free = f->info().is_free;
+    faces.push_back(face);
+  }
+  return {std::move(vertices), std::move(faces)};
+}
+
+}  // namespace
+
+std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> constrainedDelaunay(
+    const PolygonMap& map, const BoundingBox& box) {
+  try {
+    Cdt cdt;
+    cdt.insert(Point(box.min.x, box.min.y));
+    cdt.insert(Point(box.max.x, box.min.y));
+    cdt.insert(Point(box.max.x, box.max.y));
+    cdt.insert(Point(box.min.x, box.max.y));
+    Chains chains;
+    for (const Ring* ring : map.rings()) chains.addRing(*ring);
+    for (const Polyline& wall : map.wallsBeyond()) chains.addWall(wall);
+    const std::vector<Constraint> constraints = chains.insertInto(cdt);
+    floodFree(cdt, markConstraints(cdt, constraints));
+    return flatten(cdt);
+  } catch (const std::exception& e) {
+    throw InvalidMapError(std::string("the map cannot be triangulated: ") + e.what());
+  }
+}
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <mrpt_polyloc/geometry/Triangulation.h>
+#include <mrpt_polyloc/visibility/BeamPattern.h>
+#include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace mrpt_polyloc {
+
+/// What the map predicts for the beams of one or more poses, in the beams' own order, pose by pose
+/// [m]. `wall[i]`: range to the first wall, infinity where there is none. `open[i]`: range at which
+/// the beam first left free space for unknown space before that wall, else infinity.
+struct PredictedRanges {
+  std::vector<float> wall;
+  std::vector<float> open;
+};
+
+/// Predicts ranges from the lists of a VisibleEdgeIndex: along an edge on the line n.x = h the
+/// inverse range is (n.u)/h, linear in the beam's direction u, so an edge fills the beams it covers
+/// with two multiplications and a maximum each, and the depth buffer on inverse ranges needs no
+/// order among the edges.
+///
+/// Single precision: within 1e-5 of the range, except for beams that pass a vertex within 2e-6 rad.
+/// Cost: a few ns per listed edge and 0.1 ns per covered beam. Const and thread-safe. A pose
+/// outside the indexed cells is answered by expansion, more slowly.
+class RangePredictor {
+ public:
+  /// Side of the cells [m]: the measured optimum between long lists and many cells on floor plans.
+  static constexpr double kCellSize = 0.5;
+
+  /// Keeps a reference to the triangulation. \param threads for the index; 0: all cores
+  explicit RangePredictor(const Triangulation& triangulation, double cell_size = kCellSize,
+                          int threads = 0);
+
+  /// The ranges from one pose of the beam frame (see RangeScan) in the map. All infinite outside
+  /// the triangulated box.
+  void predict(const mrpt::math::TPose2D& pose_map_beams, const BeamPattern& beams,
+               PredictedRanges& out) const;
+
+  /// The same for many poses, in an order that keeps memory warm.
+  void predict(const std::vector<mrpt::math::TPose2D>& poses, const BeamPattern& beams,
+               PredictedRanges& out) const;
+
+  const VisibleEdgeIndex& index() const { return index_; }
+
+ private:
+  struct Workspace;
+  void predictSorted(const mrpt::math::TPose2D& pose, const BeamPattern& beams,
+                     Workspace& workspace) const;
+
+  const Triangulation* triangulation_;
+  VisibleEdgeIndex index_;
+};
+
+}  // namespace mrpt_polyloc
