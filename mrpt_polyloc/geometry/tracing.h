@@ -8,11 +8,17 @@ namespace mrpt_polyloc {
 /// How a bitmap becomes a polygon map.
 struct TracingParams {
   /// Greatest distance between the exact cell border and the simplified one, in cells. One cell:
-  /// within the resolution of the grid, and it takes the staircase off slanted walls.
+  /// within the resolution of the grid, and it takes the staircase off slanted walls. 0 keeps every
+  /// corner. Closed borders narrower than two cells times this are simplified less, so that specks
+  /// keep their size.
   double tolerance_cells = 1.0;
   /// Free components below this area [m2] are dropped: specks of free space seen through windows
-  /// cannot hold a robot.
+  /// cannot hold a robot. They count as unknown then.
   double min_component_area = 0.25;
+  /// Patches of unknown cells (connected by sides or corners) up to this area [m2] that touch
+  /// nothing but free cells count as free. 0, the default, leaves all of them unknown: what no
+  /// sensor has seen may also be an obstacle.
+  double max_filled_unknown_area = 0.0;
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;
@@ -22,8 +28,15 @@ struct TracingParams {
 /// borders between free and unknown cells (and the rim of the bitmap) open edges; borders between
 /// occupied and unknown cells become walls beyond. Occupied specks are kept, however small.
 ///
-/// The border follows the cell sides exactly and is then simplified without changing its topology.
-/// \throws InvalidMapError if no free component is left.
+/// Free cells are connected by their sides: a gap between two obstacles that touch at a corner is
+/// closed. Rings that touch share a vertex; no ring visits a vertex twice.
+///
+/// The border follows the cell sides exactly and is then simplified without changing its topology:
+/// rings and walls beyond never cross, no ring vanishes, and vertices where wall, open and beyond
+/// meet stay. All choices are made in a fixed order: one bitmap, one map. Linear in the number of
+/// cells, and n log n in the number n of border corners.
+/// \throws InvalidMapError if the bitmap is malformed or no free component is left.
+/// \throws InvalidParamsError naming the bad field of `params`.
 PolygonMap traceBitmap(const OccupancyBitmap& bitmap, const TracingParams& params = {});
 
 }  // namespace mrpt_polyloc

@@ -33,30 +33,27 @@ struct RangePredictor::Workspace {
 RangePredictor::RangePredictor(const Triangulation& triangulation, double cell_size, int threads)
     : triangulation_(&triangulation), index_(triangulation, cell_size, threads) {}
 
-void RangePredictor::predictSorted(const mrpt::math::TPose2D& pose, const BeamPattern& beams,
-                                   Workspace& w) const {
-  w.wall.assign(beams.size(), 0.0F);
-  w.open.assign(beams.size(), 0.0F);
+/// Projects the walls, then the open edges that may be seen from the pose into workspace.seen, and
+/// calls fill_walls() and fill_open() after each.
+template <class FillWalls, class FillOpen>
+void RangePredictor::projectVisible(const mrpt::math::TPose2D& pose, Workspace& w,
+                                    FillWalls&& fill_walls, FillOpen&& fill_open) const {
   const ViewFrame frame = frameOf(pose, index_.origin());
-  const auto fill = [&](const std::vector<VisibleEdgeIndex::Edge>& edges,
-                        const std::uint32_t* numbers, std::size_t count, float* inverse) {
-    if (count == 0) return;
-    projectEdges(edges, numbers, count, frame, w.seen);
-    fillDepths(w.seen, beams, inverse);
-  };
   const std::int64_t number = index_.cellNumber({pose.x, pose.y});
   if (number >= 0) {
     const VisibleEdgeIndex::Cell cell = index_.cell(number);
-    fill(index_.edges(), cell.walls, cell.wall_count, w.wall.data());
-    fill(index_.edges(), cell.open, cell.open_count, w.open.data());
+    projectEdges(index_.edges(), cell.walls, cell.wall_count, frame, w.seen);
+    fill_walls();
+    projectEdges(index_.edges(), cell.open, cell.open_count, frame, w.seen);
+    fill_open();
     return;
   }
   ViewExpander expander(*triangulation_);
   const View& view = expander.expand({pose.x, pose.y});
-  const auto fillPieces = [&](const std::vector<VisibleEdge>& pieces, bool rim, float* inverse) {
+  const auto project = [&](const std::vector<VisibleEdge>& pieces, bool walls_only) {
     w.edges.clear();
     for (const VisibleEdge& piece : pieces) {
-      if (rim && !piece.is_wall) continue;
+      if (walls_only && !piece.is_wall) continue;
       const auto& vertices = triangulation_->vertices();
       const TPoint2D a = vertices[static_cast<std::size_t>(piece.right)] - index_.origin();
       const TPoint2D b = vertices[static_cast<std::size_t>(piece.left)] - index_.origin();
@@ -65,10 +62,48 @@ void RangePredictor::predictSorted(const mrpt::math::TPose2D& pose, const BeamPa
     }
     w.numbers.resize(w.edges.size());
     std::iota(w.numbers.begin(), w.numbers.end(), std::uint32_t{0});
-    fill(w.edges, w.numbers.data(), w.numbers.size(), inverse);
+    projectEdges(w.edges, w.numbers.data(), w.numbers.size(), frame, w.seen);
   };
-  fillPieces(view.ends, true, w.wall.data());
-  fillPieces(view.open, false, w.open.data());
+  project(view.ends, true);
+  fill_walls();
+  project(view.open, false);
+  fill_open();
+}
+
+void RangePredictor::predictSorted(const mrpt::math::TPose2D& pose, const BeamPattern& beams,
+                                   Workspace& w) const {
+  w.wall.assign(beams.size(), 0.0F);
+  w.open.assign(beams.size(), 0.0F);
+  projectVisible(
+      pose, w, [&] { fillDepths(w.seen, beams, w.wall.data()); },
+      [&] { fillDepths(w.seen, beams, w.open.data()); });
+}
+
+void RangePredictor::predict(const mrpt::math::TPose2D& pose_map_beams, const BeamPattern& beams,
+                             PredictedHits& out) const {
+  const std::size_t n = beams.size();
+  for (auto* column : {&out.wall, &out.open, &out.along, &out.across}) column->resize(n);
+  Workspace w;
+  w.wall.assign(n, 0.0F);
+  w.open.assign(n, 0.0F);
+  std::vector<std::int32_t> nearest(n, -1);
+  std::vector<float> along(n, 0.0F), across(n, 0.0F);
+  const auto fillWalls = [&] {
+    fillDepths(w.seen, beams, w.wall.data(), nearest.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      if (nearest[i] < 0) continue;
+      along[i] = w.seen.along[static_cast<std::size_t>(nearest[i])];
+      across[i] = w.seen.across[static_cast<std::size_t>(nearest[i])];
+    }
+  };
+  projectVisible(pose_map_beams, w, fillWalls, [&] { fillDepths(w.seen, beams, w.open.data()); });
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t beam = beams.order()[i];
+    out.wall[beam] = w.wall[i] > 0.0F ? 1.0F / w.wall[i] : kInfinity;
+    out.open[beam] = w.open[i] > w.wall[i] ? 1.0F / w.open[i] : kInfinity;
+    out.along[beam] = along[i];
+    out.across[beam] = across[i];
+  }
 }
 
 void RangePredictor::predict(const mrpt::math::TPose2D& pose_map_beams, const BeamPattern& beams,

@@ -19,6 +19,14 @@ struct PredictedRanges {
   std::vector<float> open;
 };
 
+/// PredictedRanges of one pose with the line each beam hits, in the beam frame: with
+/// 1 / wall = along * cos(bearing) + across * sin(bearing), (along, across) is the line's normal
+/// divided by its distance [1/m]; both 0 where no wall is hit.
+struct PredictedHits {
+  std::vector<float> wall, open;
+  std::vector<float> along, across;
+};
+
 /// Predicts ranges from the lists of a VisibleEdgeIndex: along an edge on the line n.x = h the
 /// inverse range is (n.u)/h, linear in the beam's direction u, so an edge fills the beams it covers
 /// with two multiplications and a maximum each, and the depth buffer on inverse ranges needs no
@@ -45,10 +53,17 @@ class RangePredictor {
   void predict(const std::vector<mrpt::math::TPose2D>& poses, const BeamPattern& beams,
                PredictedRanges& out) const;
 
+  /// The ranges from one pose, and the lines that are hit: what refinement needs for derivatives.
+  void predict(const mrpt::math::TPose2D& pose_map_beams, const BeamPattern& beams,
+               PredictedHits& out) const;
+
   const VisibleEdgeIndex& index() const { return index_; }
 
  private:
   struct Workspace;
+  template <class FillWalls, class FillOpen>
+  void projectVisible(const mrpt::math::TPose2D& pose, Workspace& workspace, FillWalls&& fill_walls,
+                      FillOpen&& fill_open) const;
   void predictSorted(const mrpt::math::TPose2D& pose, const BeamPattern& beams,
                      Workspace& workspace) const;
 

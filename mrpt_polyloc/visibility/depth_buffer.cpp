@@ -35,18 +35,6 @@ inline __attribute__((always_inline)) float atan2Polynomial(float y, float x) {
   return y < 0.0F ? -p : p;
 }
 
-/// inverse[i] = max(inverse[i], along cos + across sin) for i in [first, last).
-inline __attribute__((always_inline)) void raise(const BeamPattern& beams, float along,
-                                                 float across, std::size_t first, std::size_t last,
-                                                 float* inverse) {
-  const float* cosines = beams.cosines();
-  const float* sines = beams.sines();
-  for (std::size_t i = first; i < last; ++i) {
-    const float value = along * cosines[i] + across * sines[i];
-    inverse[i] = inverse[i] < value ? value : inverse[i];
-  }
-}
-
 }  // namespace
 
 POLYLOC_HOT_LOOP
@@ -84,8 +72,10 @@ void projectEdges(const std::vector<VisibleEdgeIndex::Edge>& edges, const std::u
   }
 }
 
-POLYLOC_HOT_LOOP
-void fillDepths(const SeenEdges& edges, const BeamPattern& beams, float* inverse) {
+/// Calls run(edge, first, last) for each run of sorted beams that an edge covers.
+template <class Run>
+inline __attribute__((always_inline)) void forEachRun(const SeenEdges& edges,
+                                                      const BeamPattern& beams, Run&& run) {
   for (std::size_t e = 0; e < edges.count; ++e) {
     float from = edges.right[e] - kSlack, to = edges.left[e] + kSlack;
     if (from < -kPi) from += 2.0F * kPi;
@@ -94,12 +84,45 @@ void fillDepths(const SeenEdges& edges, const BeamPattern& beams, float* inverse
     if (to >= kPi) to -= 2.0F * kPi;
     const std::size_t first = beams.firstFrom(from), last = beams.firstFrom(to);
     if (from <= to) {
-      raise(beams, edges.along[e], edges.across[e], first, last, inverse);
+      run(e, first, last);
     } else {  // across the bearing pi
-      raise(beams, edges.along[e], edges.across[e], first, beams.size(), inverse);
-      raise(beams, edges.along[e], edges.across[e], 0, last, inverse);
+      run(e, first, beams.size());
+      run(e, 0, last);
     }
   }
+}
+
+POLYLOC_HOT_LOOP
+void fillDepths(const SeenEdges& edges, const BeamPattern& beams, float* inverse) {
+  const float* cosines = beams.cosines();
+  const float* sines = beams.sines();
+  forEachRun(
+      edges, beams,
+      [&](std::size_t e, std::size_t first, std::size_t last) __attribute__((always_inline)) {
+        const float along = edges.along[e], across = edges.across[e];
+        for (std::size_t i = first; i < last; ++i) {
+          const float value = along * cosines[i] + across * sines[i];
+          inverse[i] = inverse[i] < value ? value : inverse[i];
+        }
+      });
+}
+
+POLYLOC_HOT_LOOP
+void fillDepths(const SeenEdges& edges, const BeamPattern& beams, float* inverse,
+                std::int32_t* nearest) {
+  const float* cosines = beams.cosines();
+  const float* sines = beams.sines();
+  forEachRun(
+      edges, beams,
+      [&](std::size_t e, std::size_t first, std::size_t last) __attribute__((always_inline)) {
+        const float along = edges.along[e], across = edges.across[e];
+        const auto number = static_cast<std::int32_t>(e);
+        for (std::size_t i = first; i < last; ++i) {
+          const float value = along * cosines[i] + across * sines[i];
+          nearest[i] = inverse[i] < value ? number : nearest[i];
+          inverse[i] = inverse[i] < value ? value : inverse[i];
+        }
+      });
 }
 
 }  // namespace mrpt_polyloc

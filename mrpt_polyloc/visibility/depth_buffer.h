@@ -32,4 +32,8 @@ void projectEdges(const std::vector<VisibleEdgeIndex::Edge>& edges, const std::u
 /// beam i meets; to be set to 0 before.
 void fillDepths(const SeenEdges& edges, const BeamPattern& beams, float* inverse);
 
+/// As fillDepths(), and notes in `nearest[i]` which of the edges it was; unchanged where none.
+void fillDepths(const SeenEdges& edges, const BeamPattern& beams, float* inverse,
+                std::int32_t* nearest);
+
 }  // namespace mrpt_polyloc

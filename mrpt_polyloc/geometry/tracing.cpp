@@ -1,0 +1,91 @@
+#include <mrpt_polyloc/geometry/bitmap_regions.h>
+#include <mrpt_polyloc/geometry/border_chains.h>
+#include <mrpt_polyloc/geometry/chain_simplification.h>
+#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/geometry/ring_assembly.h>
+#include <mrpt_polyloc/geometry/tracing.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+
+namespace mrpt_polyloc {
+namespace {
+
+std::string toText(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+void checkNotNegative(double value, const char* field) {
+  if (!std::isfinite(value) || value < 0.0) {
+    throw InvalidParamsError(std::string("TracingParams::") + field + " = " + toText(value) +
+                             " is not in [0, inf)");
+  }
+}
+
+void checkBitmap(const OccupancyBitmap& bitmap) {
+  const auto fail = [](const std::string& reason) {
+    throw InvalidMapError("occupancy bitmap: " + reason);
+  };
+  const std::string size = std::to_string(bitmap.width) + " x " + std::to_string(bitmap.height);
+  if (bitmap.width <= 0 || bitmap.height <= 0) fail("no cells (" + size + ")");
+  const auto width = static_cast<std::size_t>(bitmap.width);
+  const auto height = static_cast<std::size_t>(bitmap.height);
+  if (bitmap.cells.size() != width * height) {
+    fail(std::to_string(bitmap.cells.size()) + " cells given for " + size);
+  }
+  // Corners are numbered with 32 bits.
+  if ((width + 1) * (height + 1) > std::numeric_limits<std::uint32_t>::max()) {
+    fail(size + " cells are too many");
+  }
+  if (!std::isfinite(bitmap.resolution) || bitmap.resolution <= 0.0) {
+    fail("resolution " + toText(bitmap.resolution) + " is not a positive length");
+  }
+  const mrpt::math::TPose2D& pose = bitmap.pose_map_bitmap;
+  if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.phi)) {
+    fail("its pose (" + toText(pose.x) + ", " + toText(pose.y) + ", " + toText(pose.phi) +
+         ") is not finite");
+  }
+}
+
+CornerPlacement placementOf(const OccupancyBitmap& bitmap) {
+  const mrpt::math::TPose2D pose = bitmap.pose_map_bitmap;
+  const double along = bitmap.resolution * std::cos(pose.phi);
+  const double across = bitmap.resolution * std::sin(pose.phi);
+  return [=](const Corner& c) {
+    return TPoint2D{pose.x + along * c.x - across * c.y, pose.y + across * c.x + along * c.y};
+  };
+}
+
+}  // namespace
+
+void TracingParams::check() const {
+  checkNotNegative(tolerance_cells, "tolerance_cells");
+  checkNotNegative(min_component_area, "min_component_area");
+  checkNotNegative(max_filled_unknown_area, "max_filled_unknown_area");
+}
+
+PolygonMap traceBitmap(const OccupancyBitmap& bitmap, const TracingParams& params) {
+  params.check();
+  checkBitmap(bitmap);
+  // 0.25 m2 are 100 cells of 0.05 m, but not quite in binary fractions.
+  constexpr double kRounding = 1e-9;
+  const double cell_area = bitmap.resolution * bitmap.resolution;
+  const RegionGrid regions =
+      labelRegions(bitmap, params.min_component_area / cell_area * (1.0 - kRounding),
+                   params.max_filled_unknown_area / cell_area * (1.0 + kRounding));
+  if (regions.componentCount() == 0) {
+    throw InvalidMapError("occupancy bitmap: no free component of at least " +
+                          toText(params.min_component_area) + " m2");
+  }
+  const BorderChains borders =
+      simplifyChains(traceBorders(regions), bitmap.width, bitmap.height, params.tolerance_cells);
+  const CornerPlacement place = placementOf(bitmap);
+  return PolygonMap(assemblePolygons(borders, regions.componentCount(), place),
+                    collectWallsBeyond(borders, place));
+}
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <mrpt/io/CStream.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace mrpt_polyloc {
+
+/// A file to read, gzipped or plain (told by its first two bytes), as a stream for MRPT's archives
+/// and for lines of text.
+///
+/// MRPT's own CFileGZInputStream takes a truncated or damaged gzip file for one that ends early, so
+/// half a file passes for a whole one. Here a gzip file is decompressed once at construction to
+/// check that it is complete and its checksums are right, before anything is made of its content:
+/// a damaged length could make a parser allocate at random.
+class GzInputStream : public mrpt::io::CStream {
+ public:
+  /// \throws FormatError if the file does not exist, is not a regular file, cannot be read, is
+  /// empty, or is a gzip file that is truncated, damaged or followed by something else; the place
+  /// is a byte of the file.
+  explicit GzInputStream(const std::string& path);
+  ~GzInputStream() override;
+  GzInputStream(const GzInputStream&) = delete;
+  GzInputStream& operator=(const GzInputStream&) = delete;
+
+  const std::string& path() const { return path_; }
+
+  /// Whether all of the content has been read.
+  bool atEnd();
+  /// The next line without its end ("\n" or "\r\n"); false at the end of the file.
+  bool readLine(std::string& line);
+  /// All of the content from here on.
+  std::string readAll();
+
+  /// Reads `count` bytes, fewer only at the end of the file.
+  std::size_t Read(void* buffer, std::size_t count) override;
+  /// Throws std::logic_error: the stream is read only.
+  std::size_t Write(const void* buffer, std::size_t count) override;
+  /// Throws std::logic_error: the stream is read from beginning to end.
+  std::uint64_t Seek(std::int64_t offset, CStream::TSeekOrigin origin) override;
+  /// Size of the file on the disk [bytes].
+  std::uint64_t getTotalBytesCount() const override;
+  /// Bytes of content (decompressed) read so far.
+  std::uint64_t getPosition() const override;
+
+ private:
+  class Source;
+
+  std::string path_;
+  std::unique_ptr<Source> source_;
+};
+
+}  // namespace mrpt_polyloc

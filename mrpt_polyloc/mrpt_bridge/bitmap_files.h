@@ -1,0 +1,20 @@
+#pragma once
+
+#include <mrpt_polyloc/geometry/OccupancyBitmap.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace mrpt_polyloc {
+
+/// Largest occupancy grid that is read [cells]: 20 km x 1 km at 0.2 m, or 1 km2 at 0.05 m. A
+/// greater one is taken for a damaged file.
+constexpr std::int64_t kMaxBitmapCells = 400'000'000;
+
+/// The occupancy grid in a ROS map (.yaml, .yml) or an MRPT .gridmap or .simplemap, the latter two
+/// also with .gz behind; extensions in any case. None for any other extension.
+/// \throws FormatError as loadRosMap(), loadGridMap() and loadSimpleMap().
+std::optional<OccupancyBitmap> loadBitmap(const std::string& path);
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace mrpt_polyloc {
+
+/// The extension of a file's name in lower case, without a .gz behind it: ".log" for "A.Log.GZ";
+/// empty if there is none.
+std::string contentExtension(const std::string& path);
+
+}  // namespace mrpt_polyloc
