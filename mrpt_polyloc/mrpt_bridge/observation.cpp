@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/mrpt_bridge/observation.h>
+#include <mrpt_polyloc/mrpt_bridge/readings.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,14 +37,6 @@ void requirePlanar(const mrpt::obs::CObservation2DRangeScan& observation) {
   }
 }
 
-/// See the header for the rules.
-Beam toBeam(double bearing, double range, bool valid, double max_range) {
-  if (!std::isfinite(range) || range <= 0.0) return {};
-  const bool limited = std::isfinite(max_range) && max_range > 0.0;
-  if (valid && !(limited && range >= max_range)) return {bearing, range, BeamKind::hit};
-  return {bearing, limited ? max_range : range, BeamKind::no_return};
-}
-
 }  // namespace
 
 RangeScan toRangeScan(const mrpt::obs::CObservation2DRangeScan& observation) {
@@ -59,7 +52,7 @@ RangeScan toRangeScan(const mrpt::obs::CObservation2DRangeScan& observation) {
 
   std::vector<Beam> beams(count);
   for (std::size_t i = 0; i < count; ++i) {
-    beams[i] = toBeam(
+    beams[i] = readingToBeam(
         first + static_cast<double>(i) * step, static_cast<double>(observation.getScanRange(i)),
         observation.getScanRangeValidity(i), static_cast<double>(observation.maxRange));
   }
