@@ -1,6 +1,7 @@
 #include "Cli.h"
 
 #include "parsing.h"
+#include <mrpt_polyloc/version.h>
 
 #include <iostream>
 #include <sstream>
@@ -33,8 +34,7 @@ bool inRange(double x, const NumberRange& range) {
 
 Program::Program(std::string name, const std::string& description)
     : name_(std::move(name)), options_(description, name_) {
-  options_.set_version_flag("--version", name_ + " " + POLYLOC_VERSION,
-                            "Print the version and exit");
+  options_.set_version_flag("--version", name_ + " " + kVersion, "Print the version and exit");
   options_.get_formatter()->column_width(36);
 }
 

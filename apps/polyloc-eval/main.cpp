@@ -60,14 +60,20 @@ Inputs loadInputs(const Options& options) {
   return inputs;
 }
 
-std::vector<ScanScore> score(const std::vector<LocalizedScan>& localized, const Inputs& inputs,
-                             const Tolerance& tolerance) {
-  std::vector<ScanScore> scores;
+/// Localized scans against their truth.
+std::vector<ScanRecord> score(const std::vector<LocalizedScan>& localized, const Inputs& inputs,
+                              const Tolerance& tolerance) {
+  std::vector<ScanRecord> records;
   for (const LocalizedScan& scan : localized) {
-    scores.push_back(scoreScan(scan.result, inputs.truth[scan.row], tolerance));
-    scores.back().ms = scan.ms;
+    const std::vector<Hypothesis>& hypotheses = scan.result.hypotheses;
+    const mrpt::math::TPose2D& truth = inputs.truth[scan.row];
+    ScanRecord record{scan.row, scan.stamp,       truth, scoreScan(scan.result, truth, tolerance),
+                      {},       hypotheses.size()};
+    record.score.ms = scan.ms;
+    if (!hypotheses.empty()) record.answer = hypotheses.front();
+    records.push_back(record);
   }
-  return scores;
+  return records;
 }
 
 int evaluate(const Program& program, const Options& options) {
@@ -87,20 +93,22 @@ int evaluate(const Program& program, const Options& options) {
 
   std::vector<std::size_t> rows(inputs.scans.size());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
-  const std::vector<ScanScore> scores =
+  const std::vector<ScanRecord> records =
       score(localizeScans(localizer, inputs.scans, rows, {}, options.search), inputs, tolerance);
 
-  Evaluation evaluation;
-  evaluation.all = summarize(scores);
-  if (inputs.good) evaluation.good = summarize(scores, &*inputs.good);
-  evaluation.index_build_s = build.count();
-  evaluation.index_mb = static_cast<double>(localizer.indexBytes()) / 1e6;
+  std::vector<ScanScore> scores;
+  for (const ScanRecord& record : records) scores.push_back(record.score);
+  const Summary all = summarize(scores);
+  std::optional<Summary> good;
+  if (inputs.good) good = summarize(scores, &*inputs.good);
+  const IndexFigures index{build.count(), static_cast<double>(localizer.indexBytes()) / 1e6};
 
   OutputFiles files;
-  files.add(folder / "summary.json", summaryJson(evaluation, localizer.map()));
-  files.add(folder / "scans.csv", scansCsv(inputs.scans, scores));
+  files.add(folder / "summary.json",
+            summaryJson(all, good ? &*good : nullptr, index, localizer.map()));
+  files.add(folder / "scans.csv", scansCsv(records));
   files.commit();
-  std::cout << textSummary(evaluation);
+  std::cout << textSummary(all, good, index);
   return kDone;
 }
 

@@ -28,7 +28,7 @@ std::string count(const Summary& summary, LocalizationStatus status) {
 }  // namespace
 
 std::string textSummary(const Summary& all, const std::optional<Summary>& good,
-                        double index_build_s, double index_mb) {
+                        const IndexFigures& index) {
   std::string table;
   const auto row = [&](const char* name, const std::function<std::string(const Summary&)>& cell) {
     char line[160];
@@ -55,7 +55,7 @@ std::string textSummary(const Summary& all, const std::optional<Summary>& good,
   row("median time", [](const Summary& s) { return fixed(s.ms_median, 1, " ms"); });
   row("90th percentile", [](const Summary& s) { return fixed(s.ms_p90, 1, " ms"); });
   row("longest", [](const Summary& s) { return fixed(s.ms_max, 1, " ms"); });
-  return table + "index           " + fixed(index_build_s, 2, " s, ") + fixed(index_mb, 1, " MB\n");
+  return table + "index           " + fixed(index.build_s, 2, " s, ") + fixed(index.mb, 1, " MB\n");
 }
 
 }  // namespace mrpt_polyloc::apps
