@@ -45,15 +45,13 @@ int Program::run(int argc, const char* const* argv, const std::function<int()>& 
   };
   try {
     options_.parse(argc, argv);
+    const int code = job();
+    if (!std::cout.flush()) throw std::runtime_error("standard output: cannot be written");
+    return code;
   } catch (const CLI::ParseError& error) {
     // CLI11 has an exit code per kind of error; ours has one for them all.
     if (error.get_exit_code() == 0) return options_.exit(error);  // help or version
     return usage(error.what());
-  }
-  try {
-    const int code = job();
-    if (!std::cout.flush()) throw std::runtime_error("standard output: cannot be written");
-    return code;
   } catch (const UsageError& error) {
     return usage(error.what());
   } catch (const std::exception& error) {
@@ -66,16 +64,34 @@ void Program::warn(const std::string& message) const {
   std::cerr << name_ << ": warning: " << message << '\n';
 }
 
-CLI::Option* addNumber(CLI::App& options, const std::string& flag, double& value,
-                       const NumberRange& range, const std::string& description) {
+CLI::Option* addNumber(CLI::App& options, const std::string& flag,
+                       const std::function<void(double)>& take, const NumberRange& range,
+                       const std::string& description) {
   return options.add_option_function<std::string>(
       flag,
-      [&value, range, flag](const std::string& text) {
+      [take, range, flag](const std::string& text) {
         const auto number = parseNumber(text);
         if (!number || !inRange(*number, range)) {
-          throw CLI::ValidationError(flag, "'" + text + "' is not " + describe(range));
+          throw UsageError(flag + ": '" + text + "' is not " + describe(range));
         }
-        value = *number;
+        take(*number);
+      },
+      description);
+}
+
+CLI::Option* addNumber(CLI::App& options, const std::string& flag, double& value,
+                       const NumberRange& range, const std::string& description) {
+  return addNumber(
+      options, flag, [&value](double number) { value = number; }, range, description);
+}
+
+CLI::Option* addText(CLI::App& options, const std::string& flag, std::string& value,
+                     const std::string& description) {
+  return options.add_option_function<std::string>(
+      flag,
+      [&value, flag](const std::string& text) {
+        if (text.empty()) throw UsageError(flag + ": the text is empty");
+        value = text;
       },
       description);
 }
@@ -87,8 +103,8 @@ CLI::Option* addCount(CLI::App& options, const std::string& flag, std::uint64_t&
       [&value, min, max, flag](const std::string& text) {
         const auto count = parseCount(text);
         if (!count || *count < min || *count > max) {
-          throw CLI::ValidationError(flag, "'" + text + "' is not a whole number from " +
-                                               std::to_string(min) + " to " + std::to_string(max));
+          throw UsageError(flag + ": '" + text + "' is not a whole number from " +
+                           std::to_string(min) + " to " + std::to_string(max));
         }
         value = *count;
       },

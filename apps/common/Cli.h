@@ -27,8 +27,9 @@ class Program {
   /// Where the program adds its own options; -h/--help and --version are there already.
   CLI::App& options() { return options_; }
 
-  /// Parses, then runs the job, which returns kDone or kFailed. Whatever either throws becomes one
-  /// line `NAME: MESSAGE` on stderr: kUsage for a parse error or UsageError, else kFailed.
+  /// Parses, which may throw UsageError as the job may, then runs the job, which returns kDone or
+  /// kFailed. Whatever either throws becomes one line `NAME: MESSAGE` on stderr: kUsage for a parse
+  /// error or UsageError, else kFailed.
   int run(int argc, const char* const* argv, const std::function<int()>& job);
 
   /// One line `NAME: warning: MESSAGE` on stderr.
@@ -47,8 +48,15 @@ struct NumberRange {
 };
 
 /// An option that takes one finite number of a range; anything else is a usage error.
+CLI::Option* addNumber(CLI::App& options, const std::string& flag,
+                       const std::function<void(double)>& take, const NumberRange& range,
+                       const std::string& description);
 CLI::Option* addNumber(CLI::App& options, const std::string& flag, double& value,
                        const NumberRange& range, const std::string& description);
+
+/// An option that takes one text that is not empty (a path, a name).
+CLI::Option* addText(CLI::App& options, const std::string& flag, std::string& value,
+                     const std::string& description);
 
 /// An option that takes one decimal integer of [min, max]; anything else is a usage error.
 CLI::Option* addCount(CLI::App& options, const std::string& flag, std::uint64_t& value,

@@ -7,10 +7,10 @@
 namespace mrpt_polyloc::apps {
 namespace {
 
-constexpr double kLongSide = 1200.0;   // pixels: sharp in a README, still a screenful
-constexpr double kMargin = 0.03;       // of the longer side of the view
-constexpr double kFooter = 54.0;       // pixels, for scale bar and legend
-constexpr double kLeastWidth = 760.0;  // pixels: room for the legend under a narrow map
+constexpr double kLongSide = 1200.0;    // pixels: sharp in a README, still a screenful
+constexpr double kMargin = 0.03;        // of the longer side of the view
+constexpr double kFooter = 54.0;        // pixels, for scale bar and legend
+constexpr double kLeastWidth = 1080.0;  // pixels: room for the legend under a narrow map
 
 std::string number(double value, int decimals) {
   char text[40];
@@ -70,11 +70,10 @@ std::string styleSheet(double scale) {
   const auto fill = [](const char* name, const char* colour, const std::string& more = "") {
     return std::string(".") + name + "{fill:" + colour + ";stroke:none" + more + "}\n";
   };
-  return fill("unknown", "#e3e7ec") + fill("free", "#ffffff") + fill("frame", "#ffffff") +
+  return fill("unknown", "#e3e7ec") + fill("free", "#ffffff") + fill("footer", "#ffffff") +
          stroke("wall", "#1b2430", 2.2, ";stroke-linejoin:round;stroke-linecap:round") +
          stroke("beyond", "#9aa5b1", 1.6, ";stroke-linecap:round") +
-         stroke("open", "#ef8a17", 1.8, dash(6, 4)) +
-         fill("seen", "#2f80c3", ";fill-opacity:0.10") +
+         stroke("open", "#f08c1a", 1.4, dash(5, 3)) +
          stroke("beam", "#2f80c3", 0.7, ";stroke-opacity:0.30") + fill("hit", "#d3222a") +
          stroke("path", "#15803d", 2.0, ";stroke-linejoin:round;stroke-opacity:0.85") +
          fill("stop", "#15803d") +
@@ -82,7 +81,7 @@ std::string styleSheet(double scale) {
          fill("rivaltip", "#8e44ad") +
          stroke("best", "#0b3d91", 3.2, ";stroke-linejoin:round;stroke-linecap:round") +
          fill("besttip", "#0b3d91") + "text{font-family:DejaVu Sans,Arial,sans-serif}\n" +
-         ".note{font-size:14px;fill:#1b2430}\n" +
+         ".note{font-size:13px;fill:#1b2430}\n" +
          ".bestlabel{font-size:17px;font-weight:bold;fill:#0b3d91;stroke:#ffffff;"
          "stroke-width:4;stroke-linejoin:round;paint-order:stroke}\n" +
          ".rivallabel{font-size:13px;fill:#8e44ad;stroke:#ffffff;stroke-width:3;"
@@ -141,8 +140,8 @@ void SvgCanvas::legend(Sample sample, const std::string& style, const std::strin
 }
 
 std::string SvgCanvas::scaleBar(double y_px) const {
-  // The longest of 1, 2 or 5 times a power of ten that takes at most a sixth of the width.
-  const double most = width_px_ / scale_ / 6.0;
+  // The longest of 1, 2 or 5 times a power of ten that takes at most an eighth of the width.
+  const double most = width_px_ / scale_ / 8.0;
   const double decade = std::pow(10.0, std::floor(std::log10(most)));
   const double metres = most >= 5.0 * decade   ? 5.0 * decade
                         : most >= 2.0 * decade ? 2.0 * decade
@@ -155,7 +154,7 @@ std::string SvgCanvas::scaleBar(double y_px) const {
 }
 
 std::string SvgCanvas::legendRow(double y_px) const {
-  constexpr double kSample = 26.0, kGap = 22.0, kLetter = 8.2;  // pixels; letters on average
+  constexpr double kSample = 22.0, kGap = 14.0, kLetter = 7.4;  // pixels; letters on average
   double total = 0.0;
   for (const LegendEntry& entry : legend_) {
     total += kSample + 6.0 + kGap + kLetter * static_cast<double>(entry.meaning.size());
@@ -195,9 +194,11 @@ std::string SvgCanvas::text() const {
                             number(view_.max.y * scale_, 4) + ")\">\n";
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + total +
          "\" viewBox=\"0 0 " + width + " " + total + "\">\n<style>\n" + styleSheet(scale_) +
-         "</style>\n<rect class=\"frame\" width=\"" + width + "\" height=\"" + total +
-         "\"/>\n<rect class=\"unknown\" width=\"" + width + "\" height=\"" + height + "\"/>\n" +
-         group + shapes_ + "</g>\n" + labels_ + scaleBar(middle) + legendRow(middle) + "</svg>\n";
+         "</style>\n<rect class=\"unknown\" width=\"" + width + "\" height=\"" + total + "\"/>\n" +
+         group + shapes_ + "</g>\n" + labels_ +
+         // Laid over what reaches out of the picture.
+         "<rect class=\"footer\" y=\"" + height + "\" width=\"" + width + "\" height=\"" +
+         px(kFooter) + "\"/>\n" + scaleBar(middle) + legendRow(middle) + "</svg>\n";
 }
 
 }  // namespace mrpt_polyloc::apps

@@ -89,17 +89,22 @@ void drawMap(SvgCanvas& canvas, const PolygonMap& map) {
   canvas.legend(SvgCanvas::Sample::patch, "unknown", "unknown");
 }
 
-void drawScan(SvgCanvas& canvas, const RangeScan& scan, const TPose2D& pose_map_robot) {
+std::vector<TPoint2D> hitPoints(const RangeScan& scan, const TPose2D& pose_map_robot) {
   const TPose2D frame = scan.beamFrameFromRobot(pose_map_robot);
-  const TPoint2D origin{frame.x, frame.y};
-  std::vector<Polyline> beams;
   std::vector<TPoint2D> hits;
   for (const Beam& beam : scan.beams()) {
     if (beam.kind != BeamKind::hit) continue;
-    hits.push_back(along(origin, frame.phi + beam.bearing, beam.range));
-    beams.push_back({origin, hits.back()});
+    hits.push_back(along({frame.x, frame.y}, frame.phi + beam.bearing, beam.range));
   }
+  return hits;
+}
+
+void drawScan(SvgCanvas& canvas, const RangeScan& scan, const TPose2D& pose_map_robot) {
+  const TPose2D frame = scan.beamFrameFromRobot(pose_map_robot);
+  const std::vector<TPoint2D> hits = hitPoints(scan, pose_map_robot);
   if (hits.empty()) return;
+  std::vector<Polyline> beams;
+  for (const TPoint2D& hit : hits) beams.push_back({{frame.x, frame.y}, hit});
   canvas.lines(beams, "beam");
   canvas.dots(hits, 2.4, "hit");
   canvas.legend(SvgCanvas::Sample::dot, "hit", "scan");
@@ -115,8 +120,11 @@ void drawHypotheses(SvgCanvas& canvas, const std::vector<Hypothesis>& hypotheses
     canvas.lines({ellipse(hypothesis)}, style);
     drawArrow(canvas, pose, i == 0 ? 44.0 : 26.0, style);
     if (i >= kLabelled) continue;
-    canvas.label({pose.x, pose.y}, 10, i == 0 ? -24 : 10, rankAndWeight(i + 1, hypothesis.weight),
-                 style + "label");
+    // Behind the robot, where the label covers neither arrow nor most of the beams.
+    const bool looks_right = std::cos(pose.phi) > 0.0;
+    const double width_px = i == 0 ? 74.0 : 58.0;
+    canvas.label({pose.x, pose.y}, looks_right ? -width_px - 8.0 : 10.0, i == 0 ? -26.0 : 10.0,
+                 rankAndWeight(i + 1, hypothesis.weight), style + "label");
   }
   canvas.legend(SvgCanvas::Sample::line, "best", "best pose");
   if (hypotheses.size() > 1) canvas.legend(SvgCanvas::Sample::line, "rival", "rivals");

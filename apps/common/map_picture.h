@@ -14,6 +14,9 @@ namespace mrpt_polyloc::apps {
 /// Free space, walls, open edges and walls beyond.
 void drawMap(SvgCanvas& canvas, const PolygonMap& map);
 
+/// Where the hits of a scan lie in the map.
+std::vector<TPoint2D> hitPoints(const RangeScan& scan, const mrpt::math::TPose2D& pose_map_robot);
+
 /// The beams of a scan taken from a robot pose: thin lines, hits as dots.
 void drawScan(SvgCanvas& canvas, const RangeScan& scan, const mrpt::math::TPose2D& pose_map_robot);
 

@@ -17,6 +17,16 @@ namespace {
 constexpr std::uint64_t kMostThreads = 1024;
 constexpr std::uint64_t kMostHypotheses = 1'000'000;
 
+/// \throws UsageError if the method is unknown or not built yet.
+void checkMethod(const std::string& method) {
+  if (method == "exhaustive") return;
+  constexpr std::array<const char*, 3> planned = {"certified", "cells", "exact"};
+  if (std::find(planned.begin(), planned.end(), method) != planned.end()) {
+    throw UsageError("--method " + method + " is not built yet; there is: exhaustive");
+  }
+  throw UsageError("--method: unknown method '" + method + "'; there is: exhaustive");
+}
+
 LocalizedScan localizeOne(const GlobalLocalizer& localizer, const RangeScan& scan, std::size_t row,
                           const PosePrior& prior) {
   using Clock = std::chrono::steady_clock;
@@ -29,14 +39,13 @@ LocalizedScan localizeOne(const GlobalLocalizer& localizer, const RangeScan& sca
 }  // namespace
 
 void addSearchOptions(CLI::App& options, SearchOptions& search) {
-  options.add_option("--map", search.map, kMapFormats)->required()->type_name("MAP");
-  options
-      .add_option("--scans", search.scans, "The scans: .rawlog or CARMEN .log/.clf, plain or gz")
+  addText(options, "--map", search.map, kMapFormats)->required()->type_name("MAP");
+  addText(options, "--scans", search.scans, "The scans: .rawlog or CARMEN .log/.clf, plain or gz")
       ->required()
       ->type_name("FILE");
   options
-      .add_option(
-          "--method", search.method,
+      .add_option_function<std::string>(
+          "--method", checkMethod,
           "How to search: exhaustive [default]; certified, cells and exact are not built yet")
       ->type_name("NAME");
   addCount(
@@ -47,15 +56,6 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
            "Threads for the index and for scans at once [default: all cores for the index, one "
            "scan at a time]")
       ->type_name("N");
-}
-
-void checkMethod(const SearchOptions& search) {
-  if (search.method == "exhaustive") return;
-  constexpr std::array<const char*, 3> planned = {"certified", "cells", "exact"};
-  if (std::find(planned.begin(), planned.end(), search.method) != planned.end()) {
-    throw UsageError("--method " + search.method + " is not built yet; there is: exhaustive");
-  }
-  throw UsageError("--method: unknown method '" + search.method + "'; there is: exhaustive");
 }
 
 GlobalLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search) {

@@ -17,18 +17,15 @@ namespace mrpt_polyloc::apps {
 struct SearchOptions {
   std::string map;
   std::string scans;
-  std::string method = "exhaustive";
   std::uint64_t max_hypotheses = 20;
   /// Threads for the index, and for scans at once; 0 (not given): all cores for the index, and one
   /// scan after the other, so that the times of a scan mean something.
   std::uint64_t threads = 0;
 };
 
-/// Adds --map, --scans, --method, --max-hypotheses and --threads.
+/// Adds --map, --scans, --method (one of which is built, so it is only checked), --max-hypotheses
+/// and --threads.
 void addSearchOptions(CLI::App& options, SearchOptions& search);
-
-/// \throws UsageError if the method is unknown or not built yet.
-void checkMethod(const SearchOptions& search);
 
 /// Prepares the search in a map.
 GlobalLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search);

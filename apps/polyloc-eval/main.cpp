@@ -26,21 +26,23 @@ using namespace mrpt_polyloc::apps;
 
 struct Options {
   SearchOptions search;
-  std::string truth, good, tolerance, folder;
+  std::string truth, good, folder;
+  Tolerance tolerance;
 };
 
 void addOptions(CLI::App& cli, Options& options) {
   options.search.max_hypotheses = 50;
   addSearchOptions(cli, options.search);
-  cli.add_option("--truth", options.truth, "True poses of the robot, one a scan, matched by stamp")
+  addText(cli, "--truth", options.truth, "True poses of the robot, one a scan, matched by stamp")
       ->required()
       ->type_name("TRUTH.tum");
-  cli.add_option("--good", options.good, "Rows to be summed up apart, one a line")
-      ->type_name("FILE");
-  cli.add_option("--tolerance", options.tolerance,
-                 "What still counts as right [default: 0.3 m, 5 deg]")
+  addText(cli, "--good", options.good, "Rows to be summed up apart, one a line")->type_name("FILE");
+  cli.add_option_function<std::string>(
+         "--tolerance",
+         [&options](const std::string& text) { options.tolerance = parseTolerance(text); },
+         "What still counts as right, m and deg [default: 0.3,5]")
       ->type_name("M,DEG");
-  cli.add_option("-o", options.folder, "Folder for summary.json and scans.csv")
+  addText(cli, "-o", options.folder, "Folder for summary.json and scans.csv")
       ->required()
       ->type_name("DIR");
 }
@@ -77,9 +79,6 @@ std::vector<ScanRecord> score(const std::vector<LocalizedScan>& localized, const
 }
 
 int evaluate(const Program& program, const Options& options) {
-  checkMethod(options.search);
-  const Tolerance tolerance =
-      options.tolerance.empty() ? Tolerance{} : parseTolerance(options.tolerance);
   const Inputs inputs = loadInputs(options);
 
   const auto start = std::chrono::steady_clock::now();
@@ -93,8 +92,8 @@ int evaluate(const Program& program, const Options& options) {
 
   std::vector<std::size_t> rows(inputs.scans.size());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
-  const std::vector<ScanRecord> records =
-      score(localizeScans(localizer, inputs.scans, rows, {}, options.search), inputs, tolerance);
+  const std::vector<ScanRecord> records = score(
+      localizeScans(localizer, inputs.scans, rows, {}, options.search), inputs, options.tolerance);
 
   std::vector<ScanScore> scores;
   for (const ScanRecord& record : records) scores.push_back(record.score);

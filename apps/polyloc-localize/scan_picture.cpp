@@ -7,12 +7,18 @@
 namespace mrpt_polyloc::apps {
 namespace {
 
-/// The map and all best poses: a robot may stand outside the traced map.
-BoundingBox viewOf(const PolygonMap& map, const std::vector<mrpt::math::TPose2D>& path) {
+/// The map and these points, but a stray reading far outside must not shrink the map: at most a
+/// fifth of its size is added on each side.
+BoundingBox viewOf(const PolygonMap& map, const std::vector<TPoint2D>& points) {
   BoundingBox view = map.boundingBox();
-  for (const auto& pose : path) {
-    view.min = {std::min(view.min.x, pose.x), std::min(view.min.y, pose.y)};
-    view.max = {std::max(view.max.x, pose.x), std::max(view.max.y, pose.y)};
+  const double most = 0.2 * std::max(view.max.x - view.min.x, view.max.y - view.min.y);
+  const BoundingBox limit{{view.min.x - most, view.min.y - most},
+                          {view.max.x + most, view.max.y + most}};
+  for (const TPoint2D& point : points) {
+    const double x = std::clamp(point.x, limit.min.x, limit.max.x);
+    const double y = std::clamp(point.y, limit.min.y, limit.max.y);
+    view.min = {std::min(view.min.x, x), std::min(view.min.y, y)};
+    view.max = {std::max(view.max.x, x), std::max(view.max.y, y)};
   }
   return view;
 }
@@ -28,7 +34,10 @@ std::string scanPicture(const PolygonMap& map, const std::vector<RangeScan>& sca
     path.push_back(scan.result.hypotheses.front().pose_map_robot);
     last = &scan;
   }
-  SvgCanvas canvas(viewOf(map, path));
+  std::vector<TPoint2D> seen;
+  if (last != nullptr) seen = hitPoints(scans[last->row], path.back());
+  for (const auto& pose : path) seen.push_back({pose.x, pose.y});
+  SvgCanvas canvas(viewOf(map, seen));
   drawMap(canvas, map);
   if (last != nullptr) {
     drawScan(canvas, scans[last->row], path.back());

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -22,18 +23,19 @@ struct Options {
   std::string output;
   std::string svg;
   bool check = false;
-  bool cells = false;
   bool json = false;
 };
 
 void addOptions(CLI::App& cli, Options& options) {
-  cli.add_option("input", options.input, kMapFormats)->required()->type_name("INPUT");
-  cli.add_option("-o", options.output, "Write the map as .geojson, or .wkt if it has no open edges")
+  addText(cli, "input", options.input, kMapFormats)->required()->type_name("INPUT");
+  addText(cli, "-o", options.output, "Write the map as .geojson, or .wkt if it has no open edges")
       ->type_name("OUT");
-  cli.add_option("--svg", options.svg, "Draw the map")->type_name("PIC.svg");
+  addText(cli, "--svg", options.svg, "Draw the map")->type_name("PIC.svg");
   cli.add_flag("--check", options.check,
                "List the defects of the map; exit 1 if there is any, repaired or not");
-  cli.add_flag("--cells", options.cells, "Statistics of the visibility cells (not built yet)");
+  cli.add_flag_callback(
+      "--cells", [] { throw UsageError("--cells is not built yet"); },
+      "Statistics of the visibility cells (not built yet)");
   cli.add_flag("--json", options.json, "Print the report as JSON");
 }
 
@@ -46,11 +48,18 @@ std::string extensionOf(const std::string& path) {
   return extension;
 }
 
+/// The map as text, where the format can hold it.
+std::string outputText(const std::string& path, const PolygonMap& map) {
+  try {
+    return toText(map, extensionOf(path));
+  } catch (const InvalidMapError& error) {
+    throw FormatError(path, "", error.what());
+  }
+}
+
 void writeOutputs(const Options& options, const PolygonMap& map) {
   OutputFiles files;
-  if (!options.output.empty()) {
-    files.add(options.output, toText(map, extensionOf(options.output)));
-  }
+  if (!options.output.empty()) files.add(options.output, outputText(options.output, map));
   if (!options.svg.empty()) {
     SvgCanvas canvas(map.boundingBox());
     drawMap(canvas, map);
@@ -59,24 +68,34 @@ void writeOutputs(const Options& options, const PolygonMap& map) {
   files.commit();
 }
 
-int convert(const Program& program, const Options& options) {
-  if (options.cells) throw UsageError("--cells is not built yet");
-  if (!options.output.empty()) extensionOf(options.output);  // before the work, not after it
+void report(const Options& options, const RepairedMap& loaded) {
+  if (options.json) {
+    std::cout << jsonReport(loaded).dump(2) << '\n';
+  } else {
+    std::cout << (options.check ? defectList(loaded.defects) : "") << textReport(loaded.map);
+  }
+}
 
+/// Loads the map; one that has no valid form is reported before it is refused.
+RepairedMap load(const Program& program, const Options& options) {
   try {
-    const RepairedMap loaded = loadMapWithWarnings(program, options.input);
-    writeOutputs(options, loaded.map);
-    if (options.json) {
-      std::cout << jsonReport(loaded).dump(2) << '\n';
-    } else {
-      std::cout << (options.check ? defectList(loaded.defects) : "") << textReport(loaded.map);
-    }
-    return options.check && !loaded.defects.empty() ? kFailed : kDone;
-  } catch (const UnrepairableMapError& error) {
-    if (options.json) std::cout << jsonReport(error.defects()).dump(2) << '\n';
-    if (options.check && !options.json) std::cout << defectList(error.defects());
+    return loadMapWithWarnings(program, options.input);
+  } catch (const InvalidMapError&) {
+    const std::vector<Defect> defects = defectsOfFile(options.input);
+    if (options.json) std::cout << jsonReport(defects).dump(2) << '\n';
+    if (options.check && !options.json) std::cout << defectList(defects);
     throw;
   }
+}
+
+int convert(const Program& program, const Options& options) {
+  if (!options.output.empty()) extensionOf(options.output);  // before the work, not after it
+  requireWritable(options.output);
+  requireWritable(options.svg);
+  const RepairedMap loaded = load(program, options);
+  writeOutputs(options, loaded.map);
+  report(options, loaded);
+  return options.check && !loaded.defects.empty() ? kFailed : kDone;
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "map_report.h"
 
 #include <mrpt_polyloc/evaluation/summary_json.h>
+#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/geometry/polygon_files.h>
 
 #include <cstdio>
 
@@ -35,6 +37,14 @@ ordered_json jsonReport(const std::vector<Defect>& defects) {
   report["defects"] = toJson(defects);
   report["repairs"] = ordered_json::array();
   return report;
+}
+
+std::vector<Defect> defectsOfFile(const std::string& path) {
+  try {
+    return inspectMap(readRawMap(path)).defects;
+  } catch (const FormatError&) {  // a grid: what is wrong with it has no place of its own
+    return {};
+  }
 }
 
 std::string defectList(const std::vector<Defect>& defects) {

@@ -16,6 +16,9 @@ nlohmann::ordered_json jsonReport(const RepairedMap& loaded);
 /// {valid: false, defects, repairs: []} of a map that could not be repaired.
 nlohmann::ordered_json jsonReport(const std::vector<Defect>& defects);
 
+/// All defects of a polygon file; none for a grid.
+std::vector<Defect> defectsOfFile(const std::string& path);
+
 /// `defect: WHAT at (X, Y)` a line.
 std::string defectList(const std::vector<Defect>& defects);
 

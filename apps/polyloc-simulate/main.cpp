@@ -30,7 +30,7 @@ struct Options {
 };
 
 void addOptions(CLI::App& cli, Options& options) {
-  cli.add_option("--map", options.map, kMapFormats)->required()->type_name("MAP");
+  addText(cli, "--map", options.map, kMapFormats)->required()->type_name("MAP");
   addCount(cli, "-n", options.count, 1, 1'000'000, "Number of scans")->required()->type_name("N");
   addCount(cli, "--seed", options.seed, 0, UINT64_MAX, "The same seed gives the same scans")
       ->required()
@@ -58,7 +58,7 @@ void addOptions(CLI::App& cli, Options& options) {
   addNumber(cli, "--clearance", options.params.clearance, {0.0},
             "Least distance of the robot's centre to a wall [default: 0.3]")
       ->type_name("M");
-  cli.add_option("-o", options.folder, "Folder for scans.rawlog and truth.tum")
+  addText(cli, "-o", options.folder, "Folder for scans.rawlog and truth.tum")
       ->required()
       ->type_name("DIR");
 }
@@ -69,18 +69,17 @@ int simulate(const Program& program, Options& options) {
   options.params.fov = toRadians(options.fov_deg);
 
   const PolygonMap map = loadMapWithWarnings(program, options.map).map;
-  makeFolder(options.folder);
-  OutputFiles files;
-  const std::filesystem::path folder = options.folder;
-  const std::string rawlog = files.stage(folder / "scans.rawlog");
-
   std::vector<StampedPose> truth;
   std::vector<mrpt::obs::CObservation2DRangeScan> observations;
   for (SimulatedScan& scan : simulateScans(map, options.params, options.count, options.seed)) {
     truth.push_back(scan.truth);
     observations.push_back(std::move(scan.observation));
   }
-  writeScansRawlog(rawlog, observations);
+
+  const std::filesystem::path folder = options.folder;
+  makeFolder(options.folder);
+  OutputFiles files;
+  writeScansRawlog(files.stage(folder / "scans.rawlog"), observations);
   files.add(folder / "truth.tum", toTum(truth));
   files.commit();
   std::cout << options.count << " scans in " << (folder / "scans.rawlog").string() << ", truth in "
