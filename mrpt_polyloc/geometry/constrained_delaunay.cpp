@@ -28,8 +28,9 @@ using Point = Kernel::Point_2;
 struct FaceInfo {
   std::int32_t index = Triangulation::kNone;
   std::array<Passage, 3> passage{Passage::clear, Passage::clear, Passage::clear};
-  std::array<bool, 3> border{false, false, false};  ///< edge i belongs to a ring
-  bool is_free = false;
+  std::array<std::int32_t, 3> turns{0, 0, 0};  ///< rings with edge i, their left here minus there
+  std::int32_t winding = 0;                    ///< of all rings around the face
+  bool is_reached = false;
 };
 
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
@@ -106,48 +107,42 @@ class Chains {
   std::vector<Edge> edges_;
 };
 
-/// Marks the triangulation edges along each constraint, and the faces to the left of ring edges as
-/// free: seeds for the flood.
-std::vector<Cdt::Face_handle> markConstraints(Cdt& cdt,
-                                              const std::vector<Constraint>& constraints) {
-  std::vector<Cdt::Face_handle> seeds;
+/// Marks the triangulation edges along each constraint.
+void markConstraints(Cdt& cdt, const std::vector<Constraint>& constraints) {
   for (const Constraint& constraint : constraints) {
     auto from = cdt.vertices_in_constraint_begin(constraint.id);
     const auto end = cdt.vertices_in_constraint_end(constraint.id);
     for (auto to = std::next(from); to != end; from = to++) {
       Cdt::Face_handle face;
       int i = 0;
-      if (!cdt.is_edge(*from, *to, face, i)) continue;
-      // is_edge() may give either side; the left one has the edge run from i + 1 to i + 2.
-      if (face->vertex(Cdt::ccw(i)) != *from) {
-        const Cdt::Face_handle other = face->neighbor(i);
-        i = cdt.mirror_index(face, i);
-        face = other;
-      }
-      const Cdt::Face_handle right = face->neighbor(i);
-      const int mirror = cdt.mirror_index(face, i);
-      const auto mark = [&](FaceInfo& info, int edge) {
+      if (!cdt.is_edge(*from, *to, face, i)) throw InvalidMapError("an edge was lost");
+      const auto mark = [&](FaceInfo& info, int edge, bool left) {
         const auto e = static_cast<std::size_t>(edge);
         info.passage[e] = std::max(info.passage[e], constraint.passage);
-        info.border[e] = info.border[e] || constraint.is_ring_edge;
+        if (constraint.is_ring_edge) info.turns[e] += left ? 1 : -1;
       };
-      mark(face->info(), i);
-      mark(right->info(), mirror);
-      if (constraint.is_ring_edge) seeds.push_back(face);
+      // is_edge() may give either side; the left one has the edge run from i + 1 to i + 2.
+      const bool left = face->vertex(Cdt::ccw(i)) == *from;
+      mark(face->info(), i, left);
+      mark(face->neighbor(i)->info(), cdt.mirror_index(face, i), !left);
     }
   }
-  return seeds;
 }
 
-/// Spreads "free" from the seeds over all faces that no ring edge parts from them.
-void floodFree(const Cdt& cdt, std::vector<Cdt::Face_handle> stack) {
+/// Finds how often the rings wind around each face, from the outside inwards. Rings that share
+/// edges (two holes side by side, two components) need no care.
+void findWindings(const Cdt& cdt) {
+  std::vector<Cdt::Face_handle> stack{cdt.infinite_face()};
+  cdt.infinite_face()->info().is_reached = true;
   while (!stack.empty()) {
     const Cdt::Face_handle face = stack.back();
     stack.pop_back();
-    if (cdt.is_infinite(face) || face->info().is_free) continue;
-    face->info().is_free = true;
     for (int i = 0; i < 3; ++i) {
-      if (!face->info().border[static_cast<std::size_t>(i)]) stack.push_back(face->neighbor(i));
+      FaceInfo& next = face->neighbor(i)->info();
+      if (next.is_reached) continue;
+      next.is_reached = true;
+      next.winding = face->info().winding - face->info().turns[static_cast<std::size_t>(i)];
+      stack.push_back(face->neighbor(i));
     }
   }
 }
@@ -172,7 +167,7 @@ std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> flatten(const
       face.neighbor[k] = cdt.is_infinite(neighbor) ? Triangulation::kNone : neighbor->info().index;
       face.passage[k] = f->info().passage[k];
     }
-    face.is_free = f->info().is_free;
+    face.is_free = f->info().winding > 0;
     faces.push_back(face);
   }
   return {std::move(vertices), std::move(faces)};
@@ -191,8 +186,8 @@ std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> constrainedDe
     Chains chains;
     for (const Ring* ring : map.rings()) chains.addRing(*ring);
     for (const Polyline& wall : map.wallsBeyond()) chains.addWall(wall);
-    const std::vector<Constraint> constraints = chains.insertInto(cdt);
-    floodFree(cdt, markConstraints(cdt, constraints));
+    markConstraints(cdt, chains.insertInto(cdt));
+    findWindings(cdt);
     return flatten(cdt);
   } catch (const std::exception& e) {
     throw InvalidMapError(std::string("the map cannot be triangulated: ") + e.what());

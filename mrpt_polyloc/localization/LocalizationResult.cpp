@@ -11,7 +11,7 @@ const char* toString(LocalizationStatus status) {
     case LocalizationStatus::no_match:
       return "no_match";
     case LocalizationStatus::too_few_beams:
-      return "too_few_beams";
+      break;
   }
   return "too_few_beams";
 }
