@@ -1,13 +1,20 @@
+#include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/visibility/BeamPattern.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 namespace mrpt_polyloc {
 
 BeamPattern::BeamPattern(const std::vector<double>& bearings) : order_(bearings.size()) {
   constexpr double kPi = 3.14159265358979323846;
+  for (std::size_t i = 0; i < bearings.size(); ++i) {
+    if (!std::isfinite(bearings[i])) {
+      throw InvalidParamsError("bearings[" + std::to_string(i) + "]: not finite");
+    }
+  }
   std::vector<double> wrapped(bearings.size());
   std::transform(bearings.begin(), bearings.end(), wrapped.begin(),
                  [](double b) { return b - 2.0 * kPi * std::floor((b + kPi) / (2.0 * kPi)); });
@@ -15,25 +22,31 @@ BeamPattern::BeamPattern(const std::vector<double>& bearings) : order_(bearings.
   std::stable_sort(order_.begin(), order_.end(), [&wrapped](std::uint32_t a, std::uint32_t b) {
     return wrapped[a] < wrapped[b];
   });
+  is_in_order_ = std::is_sorted(order_.begin(), order_.end());
   for (const std::uint32_t i : order_) {
     bearings_.push_back(static_cast<float>(wrapped[i]));
     cosines_.push_back(static_cast<float>(std::cos(wrapped[i])));
     sines_.push_back(static_cast<float>(std::sin(wrapped[i])));
   }
 
-  // Slots so narrow that each holds about one beam of a full circle; one more takes the angle pi
-  // (and what rounding puts just beyond it).
-  const std::size_t slots = std::max<std::size_t>(64, 2 * bearings.size());
+  // About six slots to a beam of a full circle: regular patterns then have one beam a slot at most.
+  std::size_t slots = 64;
+  while (slots < 4 * bearings.size()) slots *= 2;
   slots_per_radian_ = static_cast<float>(static_cast<double>(slots) / (2.0 * kPi));
-  first_in_slot_.resize(slots + 2);
-  std::size_t beam = 0;
-  for (std::size_t slot = 0; slot < first_in_slot_.size(); ++slot) {
-    // One slot early: the float product in firstFrom() may round up to the next slot.
-    const double start =
-        -kPi + (static_cast<double>(slot) - 1.0) / static_cast<double>(slots_per_radian_);
-    while (beam < wrapped.size() && static_cast<double>(bearings_[beam]) < start) ++beam;
-    first_in_slot_[slot] = static_cast<std::uint32_t>(beam);
+  std::vector<std::int32_t> beams_in_slot(slots + 4);
+  for (const float bearing : bearings_) {
+    ++beams_in_slot[static_cast<std::size_t>(slotOf(bearing, slots_per_radian_))];
   }
+  first_in_slot_.resize(beams_in_slot.size());
+  std::partial_sum(beams_in_slot.begin(), beams_in_slot.end() - 1, first_in_slot_.begin() + 1);
+  const std::int32_t most = *std::max_element(beams_in_slot.begin(), beams_in_slot.end());
+  while (2 * greatest_step_ <= most) greatest_step_ *= 2;
+
+  constexpr float kBeyond = 10.0F;  // no angle is greater
+  const std::size_t padding = std::max(kPadding, 2 * static_cast<std::size_t>(greatest_step_));
+  bearings_.resize(bearings_.size() + padding, kBeyond);
+  cosines_.resize(cosines_.size() + padding);
+  sines_.resize(sines_.size() + padding);
 }
 
 }  // namespace mrpt_polyloc

@@ -10,32 +10,57 @@ namespace mrpt_polyloc {
 /// covers are one run (or two) of consecutive ones. Immutable.
 class BeamPattern {
  public:
-  /// \param bearings any order, any number, repeated ones too; finite [rad]
+  /// So many elements of bearings(), cosines() and sines() may be read beyond the last one: vector
+  /// code handles whole blocks.
+  static constexpr std::size_t kPadding = 16;
+
+  /// \param bearings any order, any number, repeated ones too [rad]
+  /// \throws InvalidParamsError for one that is not finite
   explicit BeamPattern(const std::vector<double>& bearings);
 
   std::size_t size() const { return order_.size(); }
   /// order()[i] is the place in the constructor's argument of the i-th sorted beam.
   const std::vector<std::uint32_t>& order() const { return order_; }
-  /// Of the sorted beams, in [-pi, pi).
+  /// Whether the constructor's argument is sorted already: order()[i] = i.
+  bool isInOrder() const { return is_in_order_; }
+  /// Of the sorted beams, in [-pi, pi].
   const float* bearings() const { return bearings_.data(); }
   const float* cosines() const { return cosines_.data(); }
   const float* sines() const { return sines_.data(); }
 
-  /// Index of the first sorted beam at or after an angle in [-pi, pi]; size() if there is none.
-  std::size_t firstFrom(float angle) const {
-    const float slot = (angle - kLeast) * slots_per_radian_;
-    std::size_t beam = first_in_slot_[slot > 0.0F ? static_cast<std::size_t>(slot) : 0];
-    while (beam < order_.size() && bearings_[beam] < angle) ++beam;
-    return beam;
+  /// How to find the first sorted beam at or after an angle (size() if there is none), in a fixed
+  /// number of steps without branches: see firstFrom().
+  struct Lookup {
+    const float* bearings;
+    const std::int32_t* first_in_slot;
+    float slots_per_radian;
+    std::int32_t greatest_step;
+
+    /// \param angle in [-pi, pi] up to rounding
+    std::int32_t firstFrom(float angle) const {
+      std::int32_t beam = first_in_slot[slotOf(angle, slots_per_radian)];
+      for (std::int32_t step = greatest_step; step > 0; step /= 2) {
+        beam += bearings[beam + step - 1] < angle ? step : 0;
+      }
+      return beam;
+    }
+  };
+  Lookup lookup() const {
+    return {bearings_.data(), first_in_slot_.data(), slots_per_radian_, greatest_step_};
   }
 
  private:
-  static constexpr float kLeast = -3.14159265F;
+  /// The circle is cut into equal slots; a few more take what rounding puts beyond pi.
+  static std::int32_t slotOf(float angle, float slots_per_radian) {
+    return static_cast<std::int32_t>((angle + 3.1415930F) * slots_per_radian);
+  }
+
   std::vector<std::uint32_t> order_;
+  bool is_in_order_ = true;
   std::vector<float> bearings_, cosines_, sines_;
-  // first_in_slot_[k]: the first beam in or after the k-th of equal slots of the circle.
+  std::vector<std::int32_t> first_in_slot_;  ///< the first beam in or after a slot
   float slots_per_radian_ = 1.0F;
-  std::vector<std::uint32_t> first_in_slot_;
+  std::int32_t greatest_step_ = 1;  ///< power of two above half the most beams in a slot
 };
 
 }  // namespace mrpt_polyloc

@@ -7,6 +7,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace mrpt_polyloc {
@@ -32,20 +33,21 @@ struct PredictedHits {
 /// with two multiplications and a maximum each, and the depth buffer on inverse ranges needs no
 /// order among the edges.
 ///
-/// Single precision: within 1e-5 of the range, except for beams that pass a vertex within 2e-6 rad.
+/// Single precision: within 1e-5 of the range, except for beams that pass a vertex, or meet a wall,
+/// within some 1e-6 rad.
 /// Cost: a few ns per listed edge and 0.1 ns per covered beam. Const and thread-safe. A pose
-/// outside the indexed cells is answered by expansion, more slowly.
+/// outside the indexed cells is answered from all edges, more slowly.
 class RangePredictor {
  public:
   /// Side of the cells [m]: the measured optimum between long lists and many cells on floor plans.
   static constexpr double kCellSize = 0.5;
 
-  /// Keeps a reference to the triangulation. \param threads for the index; 0: all cores
+  /// Keeps no reference to the triangulation. \param threads for the index; 0: all cores
   explicit RangePredictor(const Triangulation& triangulation, double cell_size = kCellSize,
                           int threads = 0);
 
   /// The ranges from one pose of the beam frame (see RangeScan) in the map. All infinite outside
-  /// the triangulated box.
+  /// the triangulated box, and for a pose that is not finite.
   void predict(const mrpt::math::TPose2D& pose_map_beams, const BeamPattern& beams,
                PredictedRanges& out) const;
 
@@ -61,13 +63,11 @@ class RangePredictor {
 
  private:
   struct Workspace;
-  template <class FillWalls, class FillOpen>
-  void projectVisible(const mrpt::math::TPose2D& pose, Workspace& workspace, FillWalls&& fill_walls,
-                      FillOpen&& fill_open) const;
-  void predictSorted(const mrpt::math::TPose2D& pose, const BeamPattern& beams,
-                     Workspace& workspace) const;
+  static Workspace& workspace();  ///< of the calling thread, kept between calls
+  void predict(const mrpt::math::TPose2D& pose, std::int64_t cell, const BeamPattern& beams,
+               Workspace& workspace, float* wall, float* open) const;
 
-  const Triangulation* triangulation_;
+  BoundingBox box_;
   VisibleEdgeIndex index_;
 };
 

@@ -4,18 +4,23 @@
 #include <algorithm>
 #include <cmath>
 
+#define POLYLOC_INLINE inline __attribute__((always_inline))
+
 namespace mrpt_polyloc {
 namespace {
 
+using Run = BoundaryChains::Run;
+
 constexpr float kPi = 3.14159265F;
 
-/// Widens each edge so that no beam slips between two edges that share a vertex: more than the
-/// error of the single-precision bearings (4e-7 rad), far less than any beam's width [rad].
-constexpr float kSlack = 2e-6F;
+/// Loops over short runs go in whole blocks, of as many floats as the widest vectors hold: what is
+/// beyond the end is computed too and then masked or overwritten.
+constexpr std::size_t kBlock = 16;
+static_assert(kBlock <= BoundaryChains::kPadding && kBlock <= BeamPattern::kPadding);
 
 /// atan2 without branches, for vector code. Error below 4e-7: the polynomial interpolates
 /// atan(a) / a in a^2 at the nine Chebyshev nodes of [0, 1] (error 1e-8), the rest is rounding.
-inline __attribute__((always_inline)) float atan2Polynomial(float y, float x) {
+POLYLOC_INLINE float atan2Polynomial(float y, float x) {
   const float abs_x = std::fabs(x), abs_y = std::fabs(y);
   const float greater = std::max(abs_x, abs_y), smaller = std::min(abs_x, abs_y);
   const float a = smaller / std::max(greater, 1e-30F);
@@ -35,114 +40,156 @@ inline __attribute__((always_inline)) float atan2Polynomial(float y, float x) {
   return y < 0.0F ? -p : p;
 }
 
-/// The run of sorted beams that an edge covers is [first, last), or where last < first two runs:
-/// [first, all) and [0, last), across the bearing pi.
-struct Run {
-  std::size_t first, last;
-  bool is_split;
-};
-
-inline __attribute__((always_inline)) Run runOf(const SeenEdges& edges, std::size_t e,
-                                                const BeamPattern& beams) {
-  float from = edges.right[e] - kSlack, to = edges.left[e] + kSlack;
-  if (from < -kPi) from += 2.0F * kPi;
-  if (from >= kPi) from -= 2.0F * kPi;
-  if (to < -kPi) to += 2.0F * kPi;
-  if (to >= kPi) to -= 2.0F * kPi;
-  return {beams.firstFrom(from), beams.firstFrom(to), from > to};
+/// Copies the runs' vertices, relative to the viewpoint; returns their number.
+POLYLOC_INLINE std::size_t gather(const BoundaryChains& chains, const Run* runs, std::size_t count,
+                                  const ViewFrame& frame, DepthWorkspace& w) {
+  std::size_t room = kBlock;
+  for (std::size_t r = 0; r < count; ++r) room += runs[r].edges + 1;
+  if (w.x.size() < room) {
+    for (auto* column : {&w.x, &w.y, &w.bearing}) column->resize(room);
+    for (auto* column : {&w.is_edge, &w.beam, &w.edges.vertex}) column->resize(room);
+  }
+  std::size_t end = 0;
+  for (std::size_t r = 0; r < count; ++r) {
+    const std::size_t edges = runs[r].edges;
+    for (std::size_t i = 0; i <= edges; i += kBlock) {
+      const std::int32_t* from_x = chains.x() + runs[r].first + i;
+      const std::int32_t* from_y = chains.y() + runs[r].first + i;
+      float* __restrict__ x = w.x.data() + end + i;
+      float* __restrict__ y = w.y.data() + end + i;
+      std::int32_t* __restrict__ is_edge = w.is_edge.data() + end + i;
+      for (std::size_t k = 0; k < kBlock; ++k) {
+        x[k] = static_cast<float>(from_x[k] - frame.x);
+        y[k] = static_cast<float>(from_y[k] - frame.y);
+        is_edge[k] = 1;
+      }
+    }
+    end += edges + 1;
+    w.is_edge[end - 1] = 0;
+  }
+  return end;
 }
 
-/// The arrays of a pattern, told to be apart from each other: else g++ leaves the loops scalar.
-struct Columns {
-  const float* __restrict__ cosines;
-  const float* __restrict__ sines;
-  float* __restrict__ inverse;
-  std::int32_t* __restrict__ nearest;
-};
-
-inline __attribute__((always_inline)) void raise(const Columns& columns, float along, float across,
-                                                 std::size_t first, std::size_t last) {
-  const float* __restrict__ cosines = columns.cosines;
-  const float* __restrict__ sines = columns.sines;
-  float* __restrict__ inverse = columns.inverse;
-  for (std::size_t i = first; i < last; ++i) {
-    const float value = along * cosines[i] + across * sines[i];
-    inverse[i] = std::max(inverse[i], value);
+/// Bearings of the vertices, and which beam follows each.
+POLYLOC_INLINE void takeBearings(std::size_t count, const ViewFrame& frame,
+                                 const BeamPattern& beams, DepthWorkspace& w) {
+  const float* __restrict__ x = w.x.data();
+  const float* __restrict__ y = w.y.data();
+  float* __restrict__ bearing = w.bearing.data();
+  std::int32_t* __restrict__ beam = w.beam.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    float b = atan2Polynomial(y[i], x[i]) - frame.heading;
+    b += b < -kPi ? 2.0F * kPi : 0.0F;
+    b -= b >= kPi ? 2.0F * kPi : 0.0F;
+    bearing[i] = b;
+  }
+  const BeamPattern::Lookup lookup = beams.lookup();
+  if (lookup.greatest_step == 1) {
+    for (std::size_t i = 0; i < count; ++i) {
+      beam[i] =
+          BeamPattern::Lookup{lookup.bearings, lookup.first_in_slot, lookup.slots_per_radian, 1}
+              .firstFrom(bearing[i]);
+    }
+  } else {
+    for (std::size_t i = 0; i < count; ++i) beam[i] = lookup.firstFrom(bearing[i]);
   }
 }
 
-inline __attribute__((always_inline)) void raise(const Columns& columns, float along, float across,
-                                                 std::int32_t number, std::size_t first,
-                                                 std::size_t last) {
-  const float* __restrict__ cosines = columns.cosines;
-  const float* __restrict__ sines = columns.sines;
-  float* __restrict__ inverse = columns.inverse;
-  std::int32_t* __restrict__ nearest = columns.nearest;
-  for (std::size_t i = first; i < last; ++i) {
-    const float value = along * cosines[i] + across * sines[i];
-    nearest[i] = inverse[i] < value ? number : nearest[i];
-    inverse[i] = std::max(inverse[i], value);
+/// Finds the edges that face the viewer and cover at least one beam; returns their number.
+POLYLOC_INLINE std::size_t select(std::size_t count, DepthWorkspace& w) {
+  const float* __restrict__ x = w.x.data();
+  const float* __restrict__ y = w.y.data();
+  const float* __restrict__ bearing = w.bearing.data();
+  const std::int32_t* __restrict__ beam = w.beam.data();
+  std::int32_t* __restrict__ is_edge = w.is_edge.data();
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const bool faces = x[i] * y[i + 1] - y[i] * x[i + 1] > 0.0F;
+    // Then it spans less than pi, so a bearing that falls by far passes pi. (One that falls a
+    // little is rounding.)
+    const bool covers = beam[i] < beam[i + 1] && bearing[i] < bearing[i + 1];
+    const bool wraps = bearing[i + 1] - bearing[i] < -1.0F;
+    is_edge[i] = is_edge[i] & static_cast<std::int32_t>(faces & (covers | wraps));
+  }
+  std::int32_t* __restrict__ vertex = w.edges.vertex.data();
+  std::size_t selected = 0;
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    vertex[selected] = static_cast<std::int32_t>(i);
+    selected += static_cast<std::size_t>(is_edge[i]);
+  }
+  return selected;
+}
+
+/// The lines of the selected edges, in the beam frame.
+POLYLOC_INLINE void takeLines(std::size_t count, const ViewFrame& frame, DepthWorkspace& w) {
+  DepthWorkspace::Edges& e = w.edges;
+  if (e.from.size() < count) {
+    for (auto* column : {&e.from, &e.to}) column->resize(count);
+    for (auto* column : {&e.along, &e.across, &e.nearest}) column->resize(count);
+  }
+  const std::int32_t* __restrict__ vertex = e.vertex.data();
+  float* __restrict__ along = e.along.data();
+  float* __restrict__ across = e.across.data();
+  float* __restrict__ nearest = e.nearest.data();
+  const float* __restrict__ x = w.x.data();
+  const float* __restrict__ y = w.y.data();
+  const float inverse_unit = 1.0F / frame.unit;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int32_t v = vertex[i];
+    const float ax = x[v], ay = y[v], bx = x[v + 1], by = y[v + 1];
+    const float scale = inverse_unit / std::max(ax * by - ay * bx, 1e-20F);
+    const float nx = (by - ay) * scale, ny = (ax - bx) * scale;
+    along[i] = nx * frame.cosine + ny * frame.sine;
+    across[i] = ny * frame.cosine - nx * frame.sine;
+    // Seen nearly end on, the line's slope says little: without a foot on it, the edge is no nearer
+    // than its ends.
+    const float ex = bx - ax, ey = by - ay;
+    const bool has_foot = ax * ex + ay * ey < 0.0F && bx * ex + by * ey > 0.0F;
+    const float nearer_end = std::min(ax * ax + ay * ay, bx * bx + by * by);
+    const float bound = inverse_unit / std::sqrt(std::max(nearer_end, 1e-20F));
+    nearest[i] = has_foot ? 1e30F : bound;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    e.from[i] = w.beam[static_cast<std::size_t>(vertex[i])];
+    e.to[i] = w.beam[static_cast<std::size_t>(vertex[i]) + 1];
+  }
+}
+
+/// inverse[i] = max(inverse[i], min(along cos + across sin, nearest)) for i in [first, last).
+POLYLOC_INLINE void raise(const BeamPattern& beams, float along, float across, float nearest,
+                          std::int32_t first, std::int32_t last, float* __restrict__ inverse) {
+  const float* __restrict__ cosines = beams.cosines();
+  const float* __restrict__ sines = beams.sines();
+  for (std::int32_t i = first; i < last; i += static_cast<std::int32_t>(kBlock)) {
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(kBlock); ++k) {
+      const float value = std::min(along * cosines[i + k] + across * sines[i + k], nearest);
+      const float masked = i + k < last ? value : 0.0F;
+      inverse[i + k] = std::max(inverse[i + k], masked);
+    }
   }
 }
 
 }  // namespace
 
 POLYLOC_HOT_LOOP
-void projectEdges(const std::vector<VisibleEdgeIndex::Edge>& edges, const std::uint32_t* numbers,
-                  std::size_t count, const ViewFrame& frame, SeenEdges& out) {
-  if (out.right.size() < count) {
-    for (auto* column : {&out.right, &out.left, &out.along, &out.across}) column->resize(count);
-  }
-  float* right = out.right.data();
-  float* left = out.left.data();
-  float* along = out.along.data();
-  float* across = out.across.data();
-  // Front-facing edges are packed first, endpoints in place of the results: the costly part below
-  // then runs without branches.
-  std::size_t seen = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const VisibleEdgeIndex::Edge& e = edges[numbers[i]];
-    const float ax = e.ax - frame.x, ay = e.ay - frame.y;
-    const float bx = e.bx - frame.x, by = e.by - frame.y;
-    right[seen] = ax;
-    left[seen] = ay;
-    along[seen] = bx;
-    across[seen] = by;
-    seen += ax * by - ay * bx > 0.0F;
-  }
-  out.count = seen;
-  for (std::size_t i = 0; i < seen; ++i) {
-    const float ax = right[i], ay = left[i], bx = along[i], by = across[i];
-    const float scale = 1.0F / (ax * by - ay * bx);
-    const float nx = (by - ay) * scale, ny = (ax - bx) * scale;
-    right[i] = atan2Polynomial(ay, ax) - frame.heading;
-    left[i] = atan2Polynomial(by, bx) - frame.heading;
-    along[i] = nx * frame.cosine + ny * frame.sine;
-    across[i] = ny * frame.cosine - nx * frame.sine;
-  }
-}
-
-POLYLOC_HOT_LOOP
-void fillDepths(const SeenEdges& edges, const BeamPattern& beams, float* inverse) {
-  const Columns columns{beams.cosines(), beams.sines(), inverse, nullptr};
-  for (std::size_t e = 0; e < edges.count; ++e) {
-    const Run run = runOf(edges, e, beams);
-    const float along = edges.along[e], across = edges.across[e];
-    raise(columns, along, across, run.first, run.is_split ? beams.size() : run.last);
-    if (run.is_split) raise(columns, along, across, 0, run.last);
-  }
-}
-
-POLYLOC_HOT_LOOP
-void fillDepths(const SeenEdges& edges, const BeamPattern& beams, float* inverse,
-                std::int32_t* nearest) {
-  const Columns columns{beams.cosines(), beams.sines(), inverse, nearest};
-  for (std::size_t e = 0; e < edges.count; ++e) {
-    const Run run = runOf(edges, e, beams);
-    const float along = edges.along[e], across = edges.across[e];
-    const auto number = static_cast<std::int32_t>(e);
-    raise(columns, along, across, number, run.first, run.is_split ? beams.size() : run.last);
-    if (run.is_split) raise(columns, along, across, number, 0, run.last);
+void raiseDepths(const BoundaryChains& chains, const Run* runs, std::size_t count,
+                 const ViewFrame& frame, const BeamPattern& beams, DepthWorkspace& w,
+                 float* inverse) {
+  const std::size_t vertices = gather(chains, runs, count, frame, w);
+  takeBearings(vertices, frame, beams, w);
+  const std::size_t edges = select(vertices, w);
+  takeLines(edges, frame, w);
+  const DepthWorkspace::Edges& e = w.edges;
+  for (std::size_t i = 0; i < edges; ++i) {
+    const std::int32_t from = e.from[i], to = e.to[i];
+    const float along = e.along[i], across = e.across[i], nearest = e.nearest[i];
+    const auto wraps = w.bearing[static_cast<std::size_t>(e.vertex[i])] >
+                       w.bearing[static_cast<std::size_t>(e.vertex[i]) + 1];
+    if (!wraps) {
+      raise(beams, along, across, nearest, from, to, inverse);
+    } else {  // across the bearing pi
+      raise(beams, along, across, nearest, from, static_cast<std::int32_t>(beams.size()), inverse);
+      raise(beams, along, across, nearest, 0, to, inverse);
+    }
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/visibility/BeamPattern.h>
-#include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
+#include <mrpt_polyloc/visibility/BoundaryChains.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -9,31 +9,33 @@
 
 namespace mrpt_polyloc {
 
-/// A viewpoint relative to the index's origin, and the heading of the beam frame.
+/// A viewpoint in the chains' fixed-point coordinates, and the heading of the beam frame.
 struct ViewFrame {
-  float x, y;
+  std::int32_t x, y;
+  float unit;          ///< of x and y [m]
   float heading;       ///< in [-pi, pi]
   float cosine, sine;  ///< of the heading
 };
 
-/// Edges as a frame sees them: front-facing ones only, endpoints' bearings and the coefficients of
-/// the inverse range 1 / r = along * cos(bearing) + across * sin(bearing).
-struct SeenEdges {
-  std::vector<float> right, left;  ///< bearings of the ends, in the beam frame, not wrapped [rad]
-  std::vector<float> along, across;
-  std::size_t count = 0;
+/// Memory of raiseDepths(), kept between calls: vertices as a frame sees them, one after another...
+struct DepthWorkspace {
+  std::vector<float> x, y;            ///< relative to the viewpoint
+  std::vector<std::int32_t> is_edge;  ///< whether the vertex is joined to the next one
+  std::vector<float> bearing;         ///< in the beam frame, in [-pi, pi] up to rounding
+  std::vector<std::int32_t> beam;     ///< first sorted beam at or after the bearing
+  /// ... and the edges that face the viewer and cover beams: the inverse range at a bearing is
+  /// along * cos(bearing) + across * sin(bearing), at most `nearest`.
+  struct Edges {
+    std::vector<std::int32_t> vertex, from, to;  ///< beams [from, to), across pi if to < from
+    std::vector<float> along, across, nearest;
+  } edges;
 };
 
-/// Projects the edges `numbers[0 .. count)` into the frame.
-void projectEdges(const std::vector<VisibleEdgeIndex::Edge>& edges, const std::uint32_t* numbers,
-                  std::size_t count, const ViewFrame& frame, SeenEdges& out);
-
-/// Raises `inverse[i]`, i over the sorted beams, to the greatest inverse range of the edges that
-/// beam i meets; to be set to 0 before.
-void fillDepths(const SeenEdges& edges, const BeamPattern& beams, float* inverse);
-
-/// As fillDepths(), and notes in `nearest[i]` which of the edges it was; unchanged where none.
-void fillDepths(const SeenEdges& edges, const BeamPattern& beams, float* inverse,
-                std::int32_t* nearest);
+/// Raises `inverse[i]`, i over the sorted beams, to the greatest inverse range [1/m] of the edges
+/// of `runs` that beam i meets from their left; to be set to 0 before. Some elements beyond the
+/// last beam may be written: room for BeamPattern::kPadding more.
+void raiseDepths(const BoundaryChains& chains, const BoundaryChains::Run* runs, std::size_t count,
+                 const ViewFrame& frame, const BeamPattern& beams, DepthWorkspace& workspace,
+                 float* inverse);
 
 }  // namespace mrpt_polyloc

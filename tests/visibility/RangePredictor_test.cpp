@@ -22,7 +22,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Equal up to single precision: of the range, and of coordinates on maps of up to 100 m.
 bool close(double a, double b) {
-  return a == b || std::abs(a - b) <= 2e-5 * std::max(a, b) + 3e-5;
+  return a == b || std::abs(a - b) <= 2e-5 * std::max(a, b) + 1e-6;
 }
 
 /// A few last places of single-precision coordinates on such maps [m].
