@@ -64,6 +64,7 @@ void drawArrow(SvgCanvas& canvas, const TPose2D& pose, double length_px, const s
 }
 
 std::string rankAndWeight(std::size_t rank, double weight) {
+  if (weight < 0.0005) return std::to_string(rank) + ": <0.1 %";
   char text[40];
   std::snprintf(text, sizeof text, "%zu: %.*f %%", rank, weight < 0.0995 ? 1 : 0, 100.0 * weight);
   return text;
