@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -37,6 +38,14 @@ void requirePlanar(const mrpt::obs::CObservation2DRangeScan& observation) {
   }
 }
 
+/// MRPT fills its bool with whatever byte a file holds, and to load any but 0 and 1 is undefined.
+bool rightToLeft(const mrpt::obs::CObservation2DRangeScan& observation) {
+  unsigned char byte = 0;
+  static_assert(sizeof(observation.rightToLeft) == sizeof(byte));
+  std::memcpy(&byte, &observation.rightToLeft, sizeof(byte));
+  return byte != 0;
+}
+
 }  // namespace
 
 RangeScan toRangeScan(const mrpt::obs::CObservation2DRangeScan& observation) {
@@ -46,7 +55,7 @@ RangeScan toRangeScan(const mrpt::obs::CObservation2DRangeScan& observation) {
     refuse(observation, "its aperture is negative or not finite");
   }
   const std::size_t count = observation.getScanSize();
-  const double sweep = observation.rightToLeft ? aperture : -aperture;
+  const double sweep = rightToLeft(observation) ? aperture : -aperture;
   const double step = count > 1 ? sweep / static_cast<double>(count - 1) : 0.0;
   const double first = observation.sensorPose.yaw() - (count > 1 ? 0.5 * sweep : 0.0);
 

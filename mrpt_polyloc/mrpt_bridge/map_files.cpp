@@ -1,0 +1,21 @@
+#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/geometry/polygon_files.h>
+#include <mrpt_polyloc/mrpt_bridge/bitmap_files.h>
+#include <mrpt_polyloc/mrpt_bridge/file_extension.h>
+#include <mrpt_polyloc/mrpt_bridge/map_files.h>
+
+namespace mrpt_polyloc {
+
+RepairedMap loadMap(const std::string& path, const TracingParams& tracing) {
+  if (const auto bitmap = loadBitmap(path)) return {traceBitmap(*bitmap, tracing), {}, {}};
+  const std::string extension = contentExtension(path);
+  if (extension == ".geojson" || extension == ".wkt" || extension == ".json") {
+    return loadPolygonMap(path);
+  }
+  throw FormatError(path, "",
+                    "unknown extension '" + extension +
+                        "', known for maps are .geojson, .wkt, .json, .yaml, .yml, .gridmap and "
+                        ".simplemap");
+}
+
+}  // namespace mrpt_polyloc
