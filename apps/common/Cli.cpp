@@ -51,7 +51,12 @@ int Program::run(int argc, const char* const* argv, const std::function<int()>& 
   } catch (const CLI::ParseError& error) {
     // CLI11 has an exit code per kind of error; ours has one for them all.
     if (error.get_exit_code() == 0) return options_.exit(error);  // help or version
-    return usage(error.what());
+    // A misspelt flag is told even where another is missing, which CLI11 finds first.
+    std::string message = error.what();
+    for (const std::string& extra : options_.remaining()) {
+      if (message.find(extra) == std::string::npos) message += "; not expected: " + extra;
+    }
+    return usage(message);
   } catch (const UsageError& error) {
     return usage(error.what());
   } catch (const std::exception& error) {

@@ -75,6 +75,7 @@ std::string styleSheet(double scale) {
          stroke("beyond", "#9aa5b1", 1.6, ";stroke-linecap:round") +
          stroke("open", "#f08c1a", 1.4, dash(5, 3)) +
          stroke("beam", "#2f80c3", 0.7, ";stroke-opacity:0.30") + fill("hit", "#d3222a") +
+         stroke("faint", "#e0565c", 1.8, ";stroke-linecap:round;stroke-opacity:0.45") +
          stroke("path", "#15803d", 2.0, ";stroke-linejoin:round;stroke-opacity:0.85") +
          fill("stop", "#15803d") +
          stroke("rival", "#8e44ad", 1.8, ";stroke-linejoin:round;stroke-linecap:round") +

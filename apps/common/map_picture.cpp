@@ -110,6 +110,14 @@ void drawScan(SvgCanvas& canvas, const RangeScan& scan, const TPose2D& pose_map_
   canvas.legend(SvgCanvas::Sample::dot, "hit", "scan");
 }
 
+void drawFaintHits(SvgCanvas& canvas, const std::vector<TPoint2D>& hits) {
+  constexpr std::size_t kMost = 30'000;  // more would tell no more, and make large files
+  const std::size_t step = hits.size() / kMost + 1;
+  std::vector<Polyline> points;  // as lines of no length with round ends: the shortest notation
+  for (std::size_t i = 0; i < hits.size(); i += step) points.push_back({hits[i], hits[i]});
+  canvas.lines(points, "faint");
+}
+
 void drawHypotheses(SvgCanvas& canvas, const std::vector<Hypothesis>& hypotheses) {
   if (hypotheses.empty()) return;
   constexpr std::size_t kLabelled = 5;                 // more would cover the map

@@ -20,6 +20,9 @@ std::vector<TPoint2D> hitPoints(const RangeScan& scan, const mrpt::math::TPose2D
 /// The beams of a scan taken from a robot pose: thin lines, hits as dots.
 void drawScan(SvgCanvas& canvas, const RangeScan& scan, const mrpt::math::TPose2D& pose_map_robot);
 
+/// Hits of further scans, faint, below everything that is drawn later.
+void drawFaintHits(SvgCanvas& canvas, const std::vector<TPoint2D>& hits);
+
 /// Arrows with rank and weight, and the ellipses of three standard deviations; the first stands
 /// out. Only the first few are labelled.
 void drawHypotheses(SvgCanvas& canvas, const std::vector<Hypothesis>& hypotheses);

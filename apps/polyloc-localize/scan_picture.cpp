@@ -28,18 +28,22 @@ BoundingBox viewOf(const PolygonMap& map, const std::vector<TPoint2D>& points) {
 std::string scanPicture(const PolygonMap& map, const std::vector<RangeScan>& scans,
                         const std::vector<LocalizedScan>& localized) {
   std::vector<mrpt::math::TPose2D> path;
+  std::vector<TPoint2D> hits;  // of all scans but the last
+  std::vector<TPoint2D> seen;  // from the last
   const LocalizedScan* last = nullptr;
   for (const LocalizedScan& scan : localized) {
     if (scan.result.hypotheses.empty()) continue;
+    hits.insert(hits.end(), seen.begin(), seen.end());
     path.push_back(scan.result.hypotheses.front().pose_map_robot);
+    seen = hitPoints(scans[scan.row], path.back());
     last = &scan;
   }
-  std::vector<TPoint2D> seen;
-  if (last != nullptr) seen = hitPoints(scans[last->row], path.back());
-  for (const auto& pose : path) seen.push_back({pose.x, pose.y});
-  SvgCanvas canvas(viewOf(map, seen));
+  std::vector<TPoint2D> shown = seen;
+  for (const auto& pose : path) shown.push_back({pose.x, pose.y});
+  SvgCanvas canvas(viewOf(map, shown));
   drawMap(canvas, map);
   if (last != nullptr) {
+    drawFaintHits(canvas, hits);
     drawScan(canvas, scans[last->row], path.back());
     drawPath(canvas, path);
     drawHypotheses(canvas, last->result.hypotheses);

@@ -9,8 +9,8 @@
 
 namespace mrpt_polyloc::apps {
 
-/// An SVG of the map and the last localized scan with its hypotheses; the best poses of the scans
-/// before it as a path.
+/// An SVG of the map and the last localized scan with its hypotheses; of the scans before it
+/// the best poses as a path, and what they hit, faintly.
 std::string scanPicture(const PolygonMap& map, const std::vector<RangeScan>& scans,
                         const std::vector<LocalizedScan>& localized);
 

@@ -27,7 +27,7 @@ struct Options {
 };
 
 void addOptions(CLI::App& cli, Options& options) {
-  addText(cli, "input", options.input, kMapFormats)->required()->type_name("INPUT");
+  addText(cli, "INPUT", options.input, kMapFormats)->required()->type_name("");
   addText(cli, "-o", options.output, "Write the map as .geojson, or .wkt if it has no open edges")
       ->type_name("OUT");
   addText(cli, "--svg", options.svg, "Draw the map")->type_name("PIC.svg");

@@ -5,9 +5,22 @@
 #include <mrpt_polyloc/mrpt_bridge/map_files.h>
 
 namespace mrpt_polyloc {
+namespace {
+
+/// Traces a bitmap, whose file a complaint shall name.
+PolygonMap trace(const OccupancyBitmap& bitmap, const std::string& path,
+                 const TracingParams& tracing) {
+  try {
+    return traceBitmap(bitmap, tracing);
+  } catch (const InvalidMapError& error) {
+    throw InvalidMapError(path + ": " + error.what());
+  }
+}
+
+}  // namespace
 
 RepairedMap loadMap(const std::string& path, const TracingParams& tracing) {
-  if (const auto bitmap = loadBitmap(path)) return {traceBitmap(*bitmap, tracing), {}, {}};
+  if (const auto bitmap = loadBitmap(path)) return {trace(*bitmap, path, tracing), {}, {}};
   const std::string extension = contentExtension(path);
   if (extension == ".geojson" || extension == ".wkt" || extension == ".json") {
     return loadPolygonMap(path);

@@ -30,7 +30,7 @@ class PolylocEval : public ProgramTest {
 
   static std::vector<std::string> keysOf(const json& object) {
     std::vector<std::string> keys;
-    for (const auto& [key, value] : object.items()) keys.push_back(key);
+    for (const auto& item : object.items()) keys.push_back(item.key());
     return keys;
   }
 };

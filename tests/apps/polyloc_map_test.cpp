@@ -37,9 +37,8 @@ TEST_F(PolylocMap, JsonHasExactlyTheKeysOfTheDesign) {
   EXPECT_THAT(outcome.err, IsEmpty());
   const json report = json::parse(outcome.out);
   std::vector<std::string> keys;
-  for (const auto& [key, value] : nlohmann::ordered_json::parse(outcome.out).items()) {
-    keys.push_back(key);
-  }
+  const auto ordered = nlohmann::ordered_json::parse(outcome.out);
+  for (const auto& item : ordered.items()) keys.push_back(item.key());
   EXPECT_THAT(keys, ElementsAre("valid", "defects", "repairs", "vertices", "reflex_vertices",
                                 "holes", "components", "area_m2", "perimeter_m", "open_perimeter_m",
                                 "walls_beyond_m"));
