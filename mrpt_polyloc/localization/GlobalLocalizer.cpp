@@ -93,7 +93,7 @@ LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePr
   costs.cap_none = static_cast<std::uint8_t>(knob("CN", 6));
   const SignatureQuery query(scan, costs);
   PyramidSearchParams sp;
-  sp.margin = knob("MG", 0.5);
+  sp.margin = knob("MG", 1.0);
   sp.margin_share = knob("MS", 0.15);
   sp.max_candidates = static_cast<std::size_t>(knob("MC", 200));
   const PyramidSearchResult found = searchPyramid(impl_->pyramid, query, prior, scan.sensor(), sp);
@@ -104,8 +104,8 @@ LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePr
   const PoseRefiner coarse(impl_->predictor, scan, {}, 90);
   const PoseRefiner fine(impl_->predictor, scan);
   RobustCostParams cp;
-  cp.tau_short = knob("TS", 0.5);
-  cp.tau_long = knob("TL", 0.8);
+  cp.tau_short = knob("TS", 0.4);
+  cp.tau_long = knob("TL", 0.6);
   cp.tau_open = knob("TO", 0.25);
   cp.tau_none = knob("TN", 0.15);
   const ScanCost cost(impl_->predictor, scan, cp);

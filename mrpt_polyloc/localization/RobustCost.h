@@ -11,10 +11,11 @@ namespace mrpt_polyloc {
 /// The truncations of RobustCost, all in metres.
 struct RobustCostParams {
   /// Cap where a beam ends before the map's wall: an obstacle that is not in the map.
-  double tau_short = 0.5;
+  double tau_short = 0.4;
   /// Cap where a beam passes the map's wall: contradicts the map, so dearer than tau_short.
-  double tau_long = 0.8;
-  /// Cap where a beam went on past an open edge, into what the map does not know.
+  double tau_long = 0.6;
+  /// Cap where a beam went on past an open edge, into what the map does not know, and ended there
+  /// before the first wall beyond. (Beyond that wall tau_long holds: the wall is known.)
   double tau_open = 0.25;
   /// Cost of a beam without return where a near wall should have returned it; glass and black paint
   /// do that, so the smallest of all.
@@ -32,7 +33,8 @@ struct RobustCostParams {
 /// With z the measured range, w the predicted range to the first wall and o the range at which an
 /// open edge was crossed before it (infinity: none):
 ///  - no open edge: z < w: min(w - z, tau_short); else min(z - w, tau_long);
-///  - open edge:    z < o: min(o - z, tau_short); else min(|z - w|, tau_open);
+///  - open edge:    z < o: min(o - z, tau_short); o <= z < w: min(w - z, tau_open); else
+///    min(z - w, tau_long);
 ///  - no-return:    tau_none where w < none_share z and no open edge was crossed, else 0.
 class RobustCost {
  public:
@@ -45,9 +47,9 @@ class RobustCost {
 
   /// The cost of one hit, or the no-return of one beam [m].
   float hit(float z, float w, float o) const {
-    const bool is_open = o < w;
-    if (z < std::min(o, w)) return std::min(std::min(o, w) - z, tau_short_);
-    return is_open ? std::min(std::abs(z - w), tau_open_) : std::min(z - w, tau_long_);
+    if (z >= w) return std::min(z - w, tau_long_);
+    if (z >= o) return std::min(w - z, tau_open_);
+    return std::min(std::min(o, w) - z, tau_short_);
   }
   float noReturn(float max_range, float w, float o) const {
     return w < none_share_ * max_range && !(o < w) ? tau_none_ : 0.0F;

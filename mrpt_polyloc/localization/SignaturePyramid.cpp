@@ -88,14 +88,8 @@ void SignaturePyramid::predictPositions(const RangePredictor& predictor, int thr
         for (std::size_t bin = 0; bin < kBins; ++bin) {
           const float wall = ranges.wall[i * kBins + bin];
           const float open = ranges.open[i * kBins + bin];
-          const std::uint8_t wall_code = RangeCode::encode(wall);
-          // Open must stay visible in the codes: near < wall.
-          const std::uint8_t near_code =
-              open < wall ? std::min<std::uint8_t>(RangeCode::encode(open),
-                                                   static_cast<std::uint8_t>(wall_code - 1))
-                          : wall_code;
-          codes[bin] = wall_code == 0 ? 0 : near_code;
-          codes[kBins + bin] = wall_code;
+          codes[bin] = RangeCode::encode(std::min(open, wall));
+          codes[kBins + bin] = RangeCode::encode(wall);
         }
       }
     });
@@ -125,28 +119,10 @@ void SignaturePyramid::buildLevel(std::size_t l) {
     std::fill(wall_low, wall_low + kBins, std::uint8_t{255});
     std::fill(near_high, near_high + kBins, std::uint8_t{0});
     std::fill(wall_high, wall_high + kBins, std::uint8_t{0});
-    std::vector<bool> open(kBins, false);
     for (std::uint32_t i = 0; i < level.blocks[b].child_count; ++i) {
       const SignatureBand child = band(l - 1, level.blocks[b].first_child + i);
       widen(child.near_low, child.near_high, shift, near_low, near_high);
       widen(child.wall_low, child.wall_high, shift, wall_low, wall_high);
-      for (std::size_t bin = 0; bin < kBins; ++bin) {
-        const std::size_t next = (bin + shift) % kBins;
-        if (child.near_high[bin] < child.wall_high[bin] ||
-            child.near_high[next] < child.wall_high[next]) {
-          open[bin] = true;
-        }
-      }
-    }
-    // Some open edge, and yet near_high = wall_high: a higher wall_high only widens the band (no
-    // code exceeds 255, so there near_high is lowered instead: it parts costs only above 254).
-    for (std::size_t bin = 0; bin < kBins; ++bin) {
-      if (!open[bin] || near_high[bin] < wall_high[bin]) continue;
-      if (wall_high[bin] < 255) {
-        ++wall_high[bin];
-      } else {
-        near_high[bin] = 254;
-      }
     }
   }
 }

@@ -13,7 +13,7 @@ namespace mrpt_polyloc {
 
 /// What is predicted in one bin for a block of positions and a window of headings: least and
 /// greatest code of `near`, the first thing a beam meets (wall or open edge), and of `wall`, the
-/// first wall. Some position has an open edge there exactly where near_high < wall_high.
+/// first wall.
 struct SignatureBand {
   const std::uint8_t* near_low;
   const std::uint8_t* near_high;

@@ -6,8 +6,9 @@
 namespace mrpt_polyloc {
 namespace {
 
-/// Bins that are summed side by side: one AVX-512 register, or two of AVX2, or four of SSE2. Written
-/// with the compiler's vector type, as g++ 12 leaves loops over bytes with these selects scalar.
+/// Bins that are summed side by side: one AVX-512 register, or two of AVX2, or four of SSE2.
+/// Written with the compiler's vector type, as g++ 12 leaves loops over bytes with these selects
+/// scalar.
 constexpr std::size_t kLanes = 64;
 using Lanes = std::uint8_t __attribute__((vector_size(kLanes)));
 
@@ -18,8 +19,8 @@ inline __attribute__((always_inline)) void load(const std::uint8_t* from, Lanes&
 }  // namespace
 
 // With z the scan's code: z below near_low falls short of all; z between near_high and wall_low has
-// passed an open edge everywhere and ends before every wall; z above wall_high has passed every wall,
-// dearly unless an open edge may excuse it.
+// passed an open edge everywhere and ends before every wall; z above wall_high has passed every
+// wall.
 POLYLOC_HOT_LOOP
 unsigned bandCost(const SignatureBand& band, const SignatureQuery& query, std::size_t heading) {
   Lanes sums{};  // at most kBins / kLanes caps of at most 63 each
@@ -41,9 +42,8 @@ unsigned bandCost(const SignatureBand& band, const SignatureQuery& query, std::s
     Lanes within = (wall_low > z ? wall_low : z) - z;
     within = within < cap_open ? within : cap_open;
     within = z >= near_high ? within : Lanes{};
-    const Lanes cap = near_high < wall_high ? cap_open : cap_long;
     Lanes beyond = (z > wall_high ? z : wall_high) - wall_high;
-    beyond = beyond < cap ? beyond : cap;
+    beyond = beyond < cap_long ? beyond : cap_long;
     sums += before + within + beyond;
   }
   std::uint8_t lanes[kLanes];

@@ -28,25 +28,21 @@ class BeamPattern {
   const float* cosines() const { return cosines_.data(); }
   const float* sines() const { return sines_.data(); }
 
-  /// How to find the first sorted beam at or after an angle (size() if there is none), in a fixed
-  /// number of steps without branches: see firstFrom().
-  struct Lookup {
-    const float* bearings;
-    const std::int32_t* first_in_slot;
-    float slots_per_radian;
-    std::int32_t greatest_step;
-
-    /// \param angle in [-pi, pi] up to rounding
-    std::int32_t firstFrom(float angle) const {
-      std::int32_t beam = first_in_slot[slotOf(angle, slots_per_radian)];
-      for (std::int32_t step = greatest_step; step > 0; step /= 2) {
-        beam += bearings[beam + step - 1] < angle ? step : 0;
-      }
-      return beam;
+  /// For each angle, in [-pi, pi] up to rounding, the first sorted beam at or after it; size() if
+  /// there is none. Without branches; to be inlined into vector code.
+  __attribute__((always_inline)) void firstFrom(const float* __restrict__ angles, std::size_t count,
+                                                std::int32_t* __restrict__ beams) const {
+    const std::int32_t* __restrict__ first_in_slot = first_in_slot_.data();
+    const float* __restrict__ bearings = bearings_.data();
+    const float slots_per_radian = slots_per_radian_;
+    for (std::size_t i = 0; i < count; ++i) {
+      beams[i] = first_in_slot[slotOf(angles[i], slots_per_radian)];
     }
-  };
-  Lookup lookup() const {
-    return {bearings_.data(), first_in_slot_.data(), slots_per_radian_, greatest_step_};
+    for (std::int32_t step = greatest_step_; step > 0; step /= 2) {
+      for (std::size_t i = 0; i < count; ++i) {
+        beams[i] += bearings[beams[i] + step - 1] < angles[i] ? step : 0;
+      }
+    }
   }
 
  private:

@@ -7,6 +7,9 @@
 namespace mrpt_polyloc {
 namespace {
 
+/// A cone that keeps growing is opened to the whole edge: bounds the work.
+constexpr std::int32_t kMostWidenings = 6;
+
 double cross(const TPoint2D& a, const TPoint2D& b) {
   return a.x * b.y - a.y * b.x;
 }
@@ -18,6 +21,20 @@ double extent(const TPoint2D& a, const TPoint2D& b) {
 
 }  // namespace
 
+SquareExpander::SquareExpander(const Triangulation& triangulation)
+    : t_(&triangulation), passed_(3 * triangulation.faces().size()) {
+  circles_.reserve(t_->faces().size());
+  for (const Triangulation::Face& face : t_->faces()) {
+    const TPoint2D& a = t_->vertices()[static_cast<std::size_t>(face.vertex[0])];
+    const TPoint2D b = t_->vertices()[static_cast<std::size_t>(face.vertex[1])] - a;
+    const TPoint2D c = t_->vertices()[static_cast<std::size_t>(face.vertex[2])] - a;
+    const double bb = b.x * b.x + b.y * b.y, cc = c.x * c.x + c.y * c.y;
+    const double twice = 2.0 * std::max(cross(b, c), 1e-12);
+    const TPoint2D m{(c.y * bb - b.y * cc) / twice, (b.x * cc - c.x * bb) / twice};
+    circles_.push_back({a.x + m.x, a.y + m.y, m.x * m.x + m.y * m.y});
+  }
+}
+
 void SquareExpander::expand(const Square& square, const std::vector<std::int32_t>& faces,
                             std::vector<HalfEdge>& walls, std::vector<HalfEdge>& open) {
   square_ = square;
@@ -27,99 +44,124 @@ void SquareExpander::expand(const Square& square, const std::vector<std::int32_t
     const Triangulation::Face& f = t_->faces()[static_cast<std::size_t>(face)];
     for (std::uint32_t i = 0; i < 3; ++i) {
       const std::int32_t right = f.vertex[(i + 1) % 3], left = f.vertex[(i + 2) % 3];
-      push({3 * static_cast<HalfEdge>(face) + i, {right, right}, {left, left}});
+      reach(3 * static_cast<HalfEdge>(face) + i, {{right, right}, {left, left}});
     }
   }
-  while (!stack_.empty()) {
-    const Gap gap = stack_.back();
-    stack_.pop_back();
-    follow(gap);
+  while (!queue_.empty()) {
+    std::pop_heap(queue_.begin(), queue_.end());
+    const HalfEdge edge = queue_.back().edge;
+    queue_.pop_back();
+    passed_[edge].is_waiting = false;
+    follow(edge);
   }
-  for (const HalfEdge edge : touched_) visits_[edge].count = 0;
+  for (const HalfEdge edge : touched_) passed_[edge].count = 0;
   touched_.clear();
 }
 
-bool SquareExpander::someLeft(const TPoint2D& limit, const TPoint2D& x) const {
-  return cross(limit, x) > -square_.half * extent(limit, x);
-}
-
-bool SquareExpander::someLeft(const Limits& limits, const TPoint2D& x) const {
-  return someLeft(at(limits[0]), x) && (limits[1] == limits[0] || someLeft(at(limits[1]), x));
-}
-
-bool SquareExpander::someRight(const Limits& limits, const TPoint2D& x) const {
-  // Right of the ray to the limit is left of the ray to it, seen in a mirror: the sign turns.
-  const auto is_right = [&](const TPoint2D& limit) {
-    return cross(limit, x) < square_.half * extent(limit, x);
-  };
-  return is_right(at(limits[0])) && (limits[1] == limits[0] || is_right(at(limits[1])));
-}
-
-/// The limits of what is seen past the apex: it takes the place of limits that are wider from every
-/// point of the square. If two limits besides it would remain, the older one goes, which can only
-/// add to what is seen.
-SquareExpander::Limits SquareExpander::tightened(const Limits& limits, std::int32_t apex,
-                                                 bool right) const {
-  const TPoint2D a = at(apex);
-  const auto is_wider = [&](std::int32_t limit) {
+/// Whether x is inside all limits of one side, each from some point of the square.
+bool SquareExpander::isSeenPast(const Limits& limits, const TPoint2D& x, Side side) const {
+  const auto is_inside = [&](std::int32_t limit) {
     const TPoint2D l = at(limit);
-    const double turn = right ? cross(l, a) : -cross(l, a);
-    return turn > square_.half * extent(l, a);
+    const double turn = side == Side::right ? cross(l, x) : -cross(l, x);
+    return turn > -square_.half * extent(l, x);
   };
-  if (!is_wider(limits[1])) return {limits[1], apex};
-  if (limits[0] != limits[1] && !is_wider(limits[0])) return {limits[0], apex};
+  return is_inside(limits[0]) && (limits[1] == limits[0] || is_inside(limits[1]));
+}
+
+/// Whether x is inside a limit, or on it, from every point of the square: x as a limit is tighter.
+bool SquareExpander::isWider(std::int32_t limit, const TPoint2D& x, Side side) const {
+  const TPoint2D l = at(limit);
+  const double turn = side == Side::right ? cross(l, x) : -cross(l, x);
+  return turn >= square_.half * extent(l, x);
+}
+
+/// The limits of what is seen past the apex: it takes the place of limits that are wider. If two
+/// limits besides it would remain, the older one goes, which can only add to what is seen.
+SquareExpander::Limits SquareExpander::tightened(const Limits& limits, std::int32_t apex,
+                                                 Side side) const {
+  const TPoint2D a = at(apex);
+  if (!isWider(limits[1], a, side)) return {limits[1], apex};
+  if (limits[0] != limits[1] && !isWider(limits[0], a, side)) return {limits[0], apex};
   return {apex, apex};
 }
 
-void SquareExpander::push(Gap gap) {
-  const Triangulation::Face& near = t_->faces()[gap.edge / 3];
-  const std::uint32_t edge = gap.edge % 3;
-  const std::int32_t right = near.vertex[(edge + 1) % 3], left = near.vertex[(edge + 2) % 3];
-  Visits& visits = visits_[gap.edge];
-  if (visits.count > kCones) return;
-  if (visits.count == 0) {
+/// Limits that hold for two cones: those of either that are wider than some of the other; where
+/// there is none, the end of the edge.
+SquareExpander::Limits SquareExpander::joined(const Limits& a, const Limits& b, std::int32_t end,
+                                              Side side) const {
+  Limits result{end, end};
+  int count = 0;
+  const auto take = [&](std::int32_t limit, const Limits& others) {
+    const bool holds =
+        isWider(limit, at(others[0]), side) || isWider(limit, at(others[1]), side);
+    if (!holds || (count > 0 && result[0] == limit) || count == 2) return;
+    if (count == 0) result = {limit, limit};
+    result[1] = limit;
+    ++count;
+  };
+  for (const std::int32_t limit : a) take(limit, b);
+  for (const std::int32_t limit : b) take(limit, a);
+  return result;
+}
+
+void SquareExpander::reach(HalfEdge edge, const Cone& cone) {
+  const Triangulation::Face& near = t_->faces()[edge / 3];
+  const std::uint32_t i = edge % 3;
+  const std::int32_t right = near.vertex[(i + 1) % 3], left = near.vertex[(i + 2) % 3];
+  Passed& passed = passed_[edge];
+  if (passed.count == 0) {
     // No point of the square on the near side: no ray leaves the face here.
     const TPoint2D r = at(right), l = at(left);
     if (cross(r, l) <= -square_.half * extent(r, l)) return;
-  }
-  const auto end = visits.cones.begin() + visits.count;
-  if (std::find(visits.cones.begin(), end, gap) != end) return;
-  if (visits.count == 0) touched_.push_back(gap.edge);
-  if (visits.count < kCones) {
-    visits.cones[static_cast<std::size_t>(visits.count)] = gap;
-  } else {
-    gap.right = {right, right};
-    gap.left = {left, left};
-  }
-  ++visits.count;
-  const bool first = visits.count == 1;
-  if (near.passage[edge] == Passage::wall) {
-    if (first) walls_->push_back(gap.edge);
-    visits.count = kCones + 1;  // seen is seen
+    touched_.push_back(edge);
+    passed.count = 1;
+    if (near.passage[i] == Passage::wall) {
+      walls_->push_back(edge);
+      return;
+    }
+    if (near.neighbor[i] == Triangulation::kNone) return;
+    if (near.passage[i] == Passage::open) open_->push_back(edge);
+    passed.cone = cone;
+    wait(edge, near.neighbor[i]);
     return;
   }
-  if (near.neighbor[edge] == Triangulation::kNone) return;
-  if (first && near.passage[edge] == Passage::open) open_->push_back(gap.edge);
-  stack_.push_back(gap);
+  if (near.passage[i] == Passage::wall || near.neighbor[i] == Triangulation::kNone) return;
+  if (passed.count > kMostWidenings) return;  // open to the whole edge
+  Cone wide{joined(passed.cone.right, cone.right, right, Side::right),
+            joined(passed.cone.left, cone.left, left, Side::left)};
+  if (wide.right == passed.cone.right && wide.left == passed.cone.left) return;
+  if (++passed.count > kMostWidenings) wide = {{right, right}, {left, left}};
+  passed.cone = wide;
+  if (!passed.is_waiting) wait(edge, near.neighbor[i]);
 }
 
-void SquareExpander::follow(const Gap& gap) {
-  const auto near = static_cast<std::int32_t>(gap.edge / 3);
-  const std::int32_t next = t_->faces()[gap.edge / 3].neighbor[gap.edge % 3];
+void SquareExpander::wait(HalfEdge edge, std::int32_t next) {
+  const Circle& circle = circles_[static_cast<std::size_t>(next)];
+  const double x = circle.x - square_.center.x, y = circle.y - square_.center.y;
+  queue_.push_back({x * x + y * y - circle.squared_radius, edge});
+  std::push_heap(queue_.begin(), queue_.end());
+  passed_[edge].is_waiting = true;
+}
+
+void SquareExpander::follow(HalfEdge edge) {
+  const Cone cone = passed_[edge].cone;
+  const auto near = static_cast<std::int32_t>(edge / 3);
+  const std::int32_t next = t_->faces()[edge / 3].neighbor[edge % 3];
   const Triangulation::Face& far = t_->faces()[static_cast<std::size_t>(next)];
   std::uint32_t entered = 0;
   while (far.neighbor[entered] != near) ++entered;
   const std::int32_t apex = far.vertex[entered];
   const TPoint2D a = at(apex);
-  const bool sees_right = someLeft(gap.right, a), sees_left = someRight(gap.left, a);
+  const bool sees_right = isSeenPast(cone.right, a, Side::right);
+  const bool sees_left = isSeenPast(cone.left, a, Side::left);
   const HalfEdge base = 3 * static_cast<HalfEdge>(next);
   if (sees_left) {
-    push({base + (entered + 2) % 3, sees_right ? tightened(gap.right, apex, true) : gap.right,
-          gap.left});
+    reach(base + (entered + 2) % 3,
+          {sees_right ? tightened(cone.right, apex, Side::right) : cone.right, cone.left});
   }
   if (sees_right) {
-    push({base + (entered + 1) % 3, gap.right,
-          sees_left ? tightened(gap.left, apex, false) : gap.left});
+    reach(base + (entered + 1) % 3,
+          {cone.right, sees_left ? tightened(cone.left, apex, Side::left) : cone.left});
   }
 }
 

@@ -76,23 +76,14 @@ POLYLOC_INLINE void takeBearings(std::size_t count, const ViewFrame& frame,
   const float* __restrict__ x = w.x.data();
   const float* __restrict__ y = w.y.data();
   float* __restrict__ bearing = w.bearing.data();
-  std::int32_t* __restrict__ beam = w.beam.data();
+  const float heading = frame.heading;
   for (std::size_t i = 0; i < count; ++i) {
-    float b = atan2Polynomial(y[i], x[i]) - frame.heading;
+    float b = atan2Polynomial(y[i], x[i]) - heading;
     b += b < -kPi ? 2.0F * kPi : 0.0F;
     b -= b >= kPi ? 2.0F * kPi : 0.0F;
     bearing[i] = b;
   }
-  const BeamPattern::Lookup lookup = beams.lookup();
-  if (lookup.greatest_step == 1) {
-    for (std::size_t i = 0; i < count; ++i) {
-      beam[i] =
-          BeamPattern::Lookup{lookup.bearings, lookup.first_in_slot, lookup.slots_per_radian, 1}
-              .firstFrom(bearing[i]);
-    }
-  } else {
-    for (std::size_t i = 0; i < count; ++i) beam[i] = lookup.firstFrom(bearing[i]);
-  }
+  beams.firstFrom(bearing, count, w.beam.data());
 }
 
 /// Finds the edges that face the viewer and cover at least one beam; returns their number.
@@ -102,13 +93,15 @@ POLYLOC_INLINE std::size_t select(std::size_t count, DepthWorkspace& w) {
   const float* __restrict__ bearing = w.bearing.data();
   const std::int32_t* __restrict__ beam = w.beam.data();
   std::int32_t* __restrict__ is_edge = w.is_edge.data();
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    const bool faces = x[i] * y[i + 1] - y[i] * x[i + 1] > 0.0F;
+  for (std::size_t i = 0; i + 1 < count; ++i) {  // integers: vector code does not mix with bool
+    const std::int32_t faces = x[i] * y[i + 1] - y[i] * x[i + 1] > 0.0F ? 1 : 0;
     // Then it spans less than pi, so a bearing that falls by far passes pi. (One that falls a
     // little is rounding.)
-    const bool covers = beam[i] < beam[i + 1] && bearing[i] < bearing[i + 1];
-    const bool wraps = bearing[i + 1] - bearing[i] < -1.0F;
-    is_edge[i] = is_edge[i] & static_cast<std::int32_t>(faces & (covers | wraps));
+    const float span = bearing[i + 1] - bearing[i];
+    const std::int32_t covers = beam[i] < beam[i + 1] ? 1 : 0;
+    const std::int32_t rises = span > 0.0F ? 1 : 0;
+    const std::int32_t wraps = span < -1.0F ? 1 : 0;
+    is_edge[i] = is_edge[i] & faces & ((covers & rises) | wraps);
   }
   std::int32_t* __restrict__ vertex = w.edges.vertex.data();
   std::size_t selected = 0;
@@ -124,33 +117,36 @@ POLYLOC_INLINE void takeLines(std::size_t count, const ViewFrame& frame, DepthWo
   DepthWorkspace::Edges& e = w.edges;
   if (e.from.size() < count) {
     for (auto* column : {&e.from, &e.to}) column->resize(count);
-    for (auto* column : {&e.along, &e.across, &e.nearest}) column->resize(count);
+    for (auto* column : {&e.ax, &e.ay, &e.bx, &e.by, &e.nearest}) column->resize(count);
   }
-  const std::int32_t* __restrict__ vertex = e.vertex.data();
-  float* __restrict__ along = e.along.data();
-  float* __restrict__ across = e.across.data();
-  float* __restrict__ nearest = e.nearest.data();
-  const float* __restrict__ x = w.x.data();
-  const float* __restrict__ y = w.y.data();
-  const float inverse_unit = 1.0F / frame.unit;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::int32_t v = vertex[i];
-    const float ax = x[v], ay = y[v], bx = x[v + 1], by = y[v + 1];
+    const auto v = static_cast<std::size_t>(e.vertex[i]);
+    e.ax[i] = w.x[v];
+    e.ay[i] = w.y[v];
+    e.bx[i] = w.x[v + 1];
+    e.by[i] = w.y[v + 1];
+    e.from[i] = w.beam[v];
+    e.to[i] = w.beam[v + 1];
+  }
+  float* __restrict__ along = e.ax.data();  // takes the place of ax, across that of ay
+  float* __restrict__ across = e.ay.data();
+  float* __restrict__ nearest = e.nearest.data();
+  const float* __restrict__ bxs = e.bx.data();
+  const float* __restrict__ bys = e.by.data();
+  const float inverse_unit = 1.0F / frame.unit, cosine = frame.cosine, sine = frame.sine;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float ax = along[i], ay = across[i], bx = bxs[i], by = bys[i];
     const float scale = inverse_unit / std::max(ax * by - ay * bx, 1e-20F);
     const float nx = (by - ay) * scale, ny = (ax - bx) * scale;
-    along[i] = nx * frame.cosine + ny * frame.sine;
-    across[i] = ny * frame.cosine - nx * frame.sine;
+    along[i] = nx * cosine + ny * sine;
+    across[i] = ny * cosine - nx * sine;
     // Seen nearly end on, the line's slope says little: without a foot on it, the edge is no nearer
     // than its ends.
     const float ex = bx - ax, ey = by - ay;
-    const bool has_foot = ax * ex + ay * ey < 0.0F && bx * ex + by * ey > 0.0F;
+    const float off_edge = std::max(ax * ex + ay * ey, -(bx * ex + by * ey));  // < 0: foot on it
     const float nearer_end = std::min(ax * ax + ay * ay, bx * bx + by * by);
-    const float bound = inverse_unit / std::sqrt(std::max(nearer_end, 1e-20F));
-    nearest[i] = has_foot ? 1e30F : bound;
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    e.from[i] = w.beam[static_cast<std::size_t>(vertex[i])];
-    e.to[i] = w.beam[static_cast<std::size_t>(vertex[i]) + 1];
+    const float least = off_edge < 0.0F ? 0.0F : nearer_end;  // squared
+    nearest[i] = inverse_unit / std::sqrt(std::max(least, 1e-20F));
   }
 }
 
@@ -199,7 +195,7 @@ POLYLOC_INLINE void forEachRun(const BoundaryChains& chains, const Run* runs, st
   const DepthWorkspace::Edges& e = w.edges;
   for (std::size_t i = 0; i < edges; ++i) {
     const std::int32_t from = e.from[i], to = e.to[i];
-    const float along = e.along[i], across = e.across[i], nearest = e.nearest[i];
+    const float along = e.ax[i], across = e.ay[i], nearest = e.nearest[i];
     const auto wraps = w.bearing[static_cast<std::size_t>(e.vertex[i])] >
                        w.bearing[static_cast<std::size_t>(e.vertex[i]) + 1];
     if (!wraps) {

@@ -23,11 +23,11 @@ struct DepthWorkspace {
   std::vector<std::int32_t> is_edge;  ///< whether the vertex is joined to the next one
   std::vector<float> bearing;         ///< in the beam frame, in [-pi, pi] up to rounding
   std::vector<std::int32_t> beam;     ///< first sorted beam at or after the bearing
-  /// ... and the edges that face the viewer and cover beams: the inverse range at a bearing is
-  /// along * cos(bearing) + across * sin(bearing), at most `nearest`.
+  /// ... and the edges that face the viewer and cover beams, from a to b. In the end (ax, ay) is
+  /// the slope of the inverse range, ax * cos(bearing) + ay * sin(bearing), at most `nearest`.
   struct Edges {
     std::vector<std::int32_t> vertex, from, to;  ///< beams [from, to), across pi if to < from
-    std::vector<float> along, across, nearest;
+    std::vector<float> ax, ay, bx, by, nearest;
   } edges;
 };
 
