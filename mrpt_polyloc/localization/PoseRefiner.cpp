@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/PoseRefiner.h>
 
 #include <Eigen/Dense>
@@ -36,6 +37,14 @@ struct NormalEquations {
 };
 
 }  // namespace
+
+void PoseRefinerParams::check() const {
+  requireInRange("max_iterations", max_iterations, 0.0, 1000.0);
+  requirePositive("step_tolerance", step_tolerance);
+  requirePositive("residual_scale", residual_scale);
+  requirePositive("gate", gate);
+  requirePositive("sigma", sigma);
+}
 
 PoseRefiner::PoseRefiner(const RangePredictor& predictor, const RangeScan& scan,
                          const PoseRefinerParams& params, std::size_t max_beams)

@@ -22,6 +22,9 @@ struct PoseRefinerParams {
   double gate = 0.8;
   /// Standard deviation of a hit's distance to its wall, sensor and map together [m].
   double sigma = 0.05;
+
+  /// \throws InvalidParamsError naming the bad field.
+  void check() const;
 };
 
 /// A pose moved to its local optimum.

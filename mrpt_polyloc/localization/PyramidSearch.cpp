@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/PyramidSearch.h>
 
 #include <algorithm>
@@ -105,6 +106,12 @@ class CellFilter {
 };
 
 }  // namespace
+
+void PyramidSearchParams::check() const {
+  requireInRange("margin_share", margin_share, 0.0, 10.0);
+  requireInRange("margin", margin, 0.0, 63.0);
+  requireInRange("max_candidates", static_cast<double>(max_candidates), 1.0, 1e6);
+}
 
 PyramidSearchResult searchPyramid(const SignaturePyramid& pyramid, const SignatureQuery& query,
                                   const PosePrior& prior, const mrpt::math::TPoint2D& sensor,

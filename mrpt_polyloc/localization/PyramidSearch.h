@@ -16,8 +16,11 @@ struct PyramidSearchParams {
   /// Poses within this share of the best cost, plus `margin`, are candidates: the codes are coarse,
   /// and the right pose is not always their best.
   double margin_share = 0.15;
-  double margin = 0.5;               ///< in steps of RangeCode per used bin
-  std::size_t max_candidates = 200;  ///< the search ends with so many different ones
+  double margin = 2.0;               ///< in steps of RangeCode per used bin
+  std::size_t max_candidates = 400;  ///< the search ends with so many different ones
+
+  /// \throws InvalidParamsError naming the bad field.
+  void check() const;
 };
 
 /// A pose of the beam frame in the map that the codes speak for.

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/RangeCode.h>
 #include <mrpt_polyloc/localization/RobustCost.h>
 #include <mrpt_polyloc/localization/SignatureQuery.h>
@@ -6,6 +7,14 @@
 #include <limits>
 
 namespace mrpt_polyloc {
+
+void SignatureCosts::check() const {
+  constexpr double kGreatest = 63.0;
+  requireInRange("cap_short", cap_short, 0.0, kGreatest);
+  requireInRange("cap_long", cap_long, 0.0, kGreatest);
+  requireInRange("cap_open", cap_open, 0.0, kGreatest);
+  requireInRange("cap_none", cap_none, 0.0, kGreatest);
+}
 
 SignatureQuery::SignatureQuery(const RangeScan& scan, const SignatureCosts& costs) {
   constexpr double kBinsPerRadian = static_cast<double>(kBins) / (2.0 * 3.14159265358979323846);

@@ -11,12 +11,16 @@ namespace mrpt_polyloc {
 /// Bins of the circle in a signature: 1.4 degrees each; the number of headings searched, too.
 constexpr std::size_t kBins = 256;
 
-/// The caps of the search's cost, in steps of RangeCode.
+/// The caps of the search's cost, in steps of RangeCode; at most 63, so that sums over the bins fit
+/// in bytes.
 struct SignatureCosts {
   std::uint8_t cap_short = 20;  ///< beam ends before the wall
   std::uint8_t cap_long = 32;   ///< beam passes the wall
   std::uint8_t cap_open = 10;   ///< beam passed an open edge
   std::uint8_t cap_none = 6;    ///< no return where a near wall stands
+
+  /// \throws InvalidParamsError naming the bad field.
+  void check() const;
 };
 
 /// A scan as the search sees it: per angular bin the code of its range, and the caps of its costs

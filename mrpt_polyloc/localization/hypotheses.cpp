@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/hypotheses.h>
 
 #include <Eigen/Dense>
@@ -69,6 +70,16 @@ mrpt::math::CMatrixDouble33 covarianceOfRobot(const RefinedPose& pose, const Ran
 }
 
 }  // namespace
+
+void HypothesisParams::check() const {
+  requirePositive("merge_distance", merge_distance);
+  requirePositive("merge_angle", merge_angle);
+  requirePositive("no_match_cost", no_match_cost);
+  requireNotNegative("rival_cost", rival_cost);
+  requireNotNegative("rival_deviations", rival_deviations);
+  requireInRange("beams_per_block", static_cast<double>(beams_per_block), 1.0, 1e6);
+  requirePositive("weight_scale", weight_scale);
+}
 
 std::vector<RankedPose> mergeNearPoses(std::vector<RankedPose> poses,
                                        const HypothesisParams& params) {

@@ -29,6 +29,9 @@ struct HypothesisParams {
   std::size_t beams_per_block = 10;
   /// Scale of the exponential by which weights fall with the mean cost [m], at one block of beams.
   double weight_scale = 0.25;
+
+  /// \throws InvalidParamsError naming the bad field.
+  void check() const;
 };
 
 /// Sorted by cost, of poses that are nearly one only the best.

@@ -9,9 +9,6 @@
 namespace mrpt_polyloc {
 namespace {
 
-/// What a lattice point lies on.
-enum class Place : std::uint8_t { unknown, free, marked };
-
 /// Calls visit(row, first, last) for the lattice points in a triangle, row by row.
 template <class Visitor>
 void scanTriangle(const std::array<TPoint2D, 3>& t, Visitor&& visit) {
@@ -36,7 +33,7 @@ void scanTriangle(const std::array<TPoint2D, 3>& t, Visitor&& visit) {
 }  // namespace
 
 std::vector<std::pair<std::int32_t, std::int32_t>> searchPositions(
-    const Triangulation& triangulation, double spacing, double unknown_margin) {
+    const Triangulation& triangulation, double spacing) {
   const BoundingBox& box = triangulation.box();
   const auto columns = static_cast<std::int32_t>((box.max.x - box.min.x) / spacing) + 1;
   const auto rows = static_cast<std::int32_t>((box.max.y - box.min.y) / spacing) + 1;
@@ -58,19 +55,9 @@ std::vector<std::pair<std::int32_t, std::int32_t>> searchPositions(
   }
 
   std::vector<std::pair<std::int32_t, std::int32_t>> positions;
-  const auto reach = static_cast<std::int32_t>(unknown_margin / spacing);
   for (std::int32_t row = 0; row < rows; ++row) {
     for (std::int32_t column = 0; column < columns; ++column) {
-      bool wanted = is_free[at(column, row)] != 0;
-      for (std::int32_t r = std::max(row - reach, 0);
-           !wanted && r <= std::min(row + reach, rows - 1); ++r) {
-        for (std::int32_t c = std::max(column - reach, 0);
-             !wanted && c <= std::min(column + reach, columns - 1); ++c) {
-          wanted = is_free[at(c, r)] != 0 &&
-                   (r - row) * (r - row) + (c - column) * (c - column) <= reach * reach;
-        }
-      }
-      if (wanted) positions.emplace_back(column, row);
+      if (is_free[at(column, row)] != 0) positions.emplace_back(column, row);
     }
   }
   return positions;

@@ -7,11 +7,11 @@
 namespace mrpt_polyloc {
 namespace {
 
-/// Traces a bitmap, whose file a complaint shall name.
+/// Cleans and traces a bitmap, whose file a complaint shall name.
 PolygonMap trace(const OccupancyBitmap& bitmap, const std::string& path,
-                 const TracingParams& tracing) {
+                 const GridMapParams& params) {
   try {
-    return traceBitmap(bitmap, tracing);
+    return traceBitmap(cleanBitmap(bitmap, params.cleaning), params.tracing);
   } catch (const InvalidMapError& error) {
     throw InvalidMapError(path + ": " + error.what());
   }
@@ -19,8 +19,8 @@ PolygonMap trace(const OccupancyBitmap& bitmap, const std::string& path,
 
 }  // namespace
 
-RepairedMap loadMap(const std::string& path, const TracingParams& tracing) {
-  if (const auto bitmap = loadBitmap(path)) return {trace(*bitmap, path, tracing), {}, {}};
+RepairedMap loadMap(const std::string& path, const GridMapParams& params) {
+  if (const auto bitmap = loadBitmap(path)) return {trace(*bitmap, path, params), {}, {}};
   const std::string extension = contentExtension(path);
   if (extension == ".geojson" || extension == ".wkt" || extension == ".json") {
     return loadPolygonMap(path);
