@@ -3,6 +3,7 @@
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -32,8 +33,21 @@ class Triangulation {
 
   explicit Triangulation(const PolygonMap& map);
 
+  /// The same box with only the walls as constraints: fewer faces to pass for what walls alone
+  /// stop. No face of it is free.
+  Triangulation wallsAlone() const;
+
   const std::vector<TPoint2D>& vertices() const { return vertices_; }
   const std::vector<Face>& faces() const { return faces_; }
+  /// What edge i of a face is to a beam that leaves the face: open only where it leads out of free
+  /// space into unknown space.
+  Passage passageOutwards(std::size_t face, std::size_t i) const {
+    const Face& f = faces_[face];
+    if (f.passage[i] != Passage::open) return f.passage[i];
+    const bool leads_out = f.is_free && f.neighbor[i] != kNone &&
+                           !faces_[static_cast<std::size_t>(f.neighbor[i])].is_free;
+    return leads_out ? Passage::open : Passage::clear;
+  }
   /// The triangulated box: the map's with a margin of 1 m.
   const BoundingBox& box() const { return box_; }
 
@@ -44,6 +58,7 @@ class Triangulation {
   bool isFree(const TPoint2D& point) const;
 
  private:
+  Triangulation(const std::vector<Polyline>& walls, const BoundingBox& box);
   void buildBuckets();
   int walk(int face, const TPoint2D& point) const;
 

@@ -173,25 +173,37 @@ std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> flatten(const
   return {std::move(vertices), std::move(faces)};
 }
 
-}  // namespace
-
-std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> constrainedDelaunay(
-    const PolygonMap& map, const BoundingBox& box) {
+std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> triangulate(
+    const Chains& chains, const BoundingBox& box) {
   try {
     Cdt cdt;
     cdt.insert(Point(box.min.x, box.min.y));
     cdt.insert(Point(box.max.x, box.min.y));
     cdt.insert(Point(box.max.x, box.max.y));
     cdt.insert(Point(box.min.x, box.max.y));
-    Chains chains;
-    for (const Ring* ring : map.rings()) chains.addRing(*ring);
-    for (const Polyline& wall : map.wallsBeyond()) chains.addWall(wall);
     markConstraints(cdt, chains.insertInto(cdt));
     findWindings(cdt);
     return flatten(cdt);
   } catch (const std::exception& e) {
     throw InvalidMapError(std::string("the map cannot be triangulated: ") + e.what());
   }
+}
+
+}  // namespace
+
+std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> constrainedDelaunay(
+    const PolygonMap& map, const BoundingBox& box) {
+  Chains chains;
+  for (const Ring* ring : map.rings()) chains.addRing(*ring);
+  for (const Polyline& wall : map.wallsBeyond()) chains.addWall(wall);
+  return triangulate(chains, box);
+}
+
+std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> constrainedDelaunay(
+    const std::vector<Polyline>& walls, const BoundingBox& box) {
+  Chains chains;
+  for (const Polyline& wall : walls) chains.addWall(wall);
+  return triangulate(chains, box);
 }
 
 }  // namespace mrpt_polyloc

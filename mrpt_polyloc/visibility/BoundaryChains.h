@@ -26,7 +26,9 @@ class BoundaryChains {
     std::uint32_t edges;
   };
 
-  explicit BoundaryChains(const Triangulation& triangulation);
+  /// \param triangulation for the open edges
+  /// \param walls for the walls: triangulation.wallsAlone()
+  BoundaryChains(const Triangulation& triangulation, const Triangulation& walls);
 
   /// Coordinates of the vertices in units of unit().
   const std::int32_t* x() const { return x_.data(); }
@@ -36,9 +38,15 @@ class BoundaryChains {
   std::int32_t fixedX(double x) const { return fixed(x - origin_.x); }
   std::int32_t fixedY(double y) const { return fixed(y - origin_.y); }
 
-  /// The number (that of the first vertex) of edge i of a face as seen from that face, if it is a
-  /// wall or an open edge that leads out of free space; else kNone.
-  std::uint32_t number(std::size_t face, std::size_t i) const { return numbers_[3 * face + i]; }
+  /// The number (that of the first vertex) of edge i of a face of `walls`, as seen from that face,
+  /// if it is a wall; else kNone.
+  std::uint32_t wallNumber(std::size_t face, std::size_t i) const {
+    return wall_numbers_[3 * face + i];
+  }
+  /// The same for a face of `triangulation` and an open edge that leads out of free space.
+  std::uint32_t openNumber(std::size_t face, std::size_t i) const {
+    return open_numbers_[3 * face + i];
+  }
   /// Whether vertex `number` is joined to the next one.
   bool isEdge(std::uint32_t number) const { return is_edge_[number] != 0; }
 
@@ -49,17 +57,16 @@ class BoundaryChains {
   std::size_t bytes() const;
 
  private:
-  using HalfEdge = std::uint32_t;  // 3 * face + edge
   std::int32_t fixed(double coordinate) const;
-  HalfEdge following(const Triangulation& t, HalfEdge edge) const;
-  void layOut(const Triangulation& t, const std::vector<HalfEdge>& edges, std::vector<Run>& runs);
-  void append(const Triangulation& t, HalfEdge edge, std::size_t end);
+  void layOut(const Triangulation& t, Passage kind, std::vector<std::uint32_t>& numbers,
+              std::vector<Run>& runs);
+  void append(const TPoint2D& vertex, bool is_edge);
 
   TPoint2D origin_;
   double unit_;
   std::vector<std::int32_t> x_, y_;
   std::vector<char> is_edge_;
-  std::vector<std::uint32_t> numbers_;  ///< by half edge
+  std::vector<std::uint32_t> wall_numbers_, open_numbers_;  ///< by 3 * face + edge
   std::vector<Run> walls_, open_;
 };
 

@@ -36,10 +36,9 @@ SquareExpander::SquareExpander(const Triangulation& triangulation)
 }
 
 void SquareExpander::expand(const Square& square, const std::vector<std::int32_t>& faces,
-                            std::vector<HalfEdge>& walls, std::vector<HalfEdge>& open) {
+                            std::vector<HalfEdge>& ends) {
   square_ = square;
-  walls_ = &walls;
-  open_ = &open;
+  ends_ = &ends;
   for (const std::int32_t face : faces) {
     const Triangulation::Face& f = t_->faces()[static_cast<std::size_t>(face)];
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -92,8 +91,7 @@ SquareExpander::Limits SquareExpander::joined(const Limits& a, const Limits& b, 
   Limits result{end, end};
   int count = 0;
   const auto take = [&](std::int32_t limit, const Limits& others) {
-    const bool holds =
-        isWider(limit, at(others[0]), side) || isWider(limit, at(others[1]), side);
+    const bool holds = isWider(limit, at(others[0]), side) || isWider(limit, at(others[1]), side);
     if (!holds || (count > 0 && result[0] == limit) || count == 2) return;
     if (count == 0) result = {limit, limit};
     result[1] = limit;
@@ -115,18 +113,18 @@ void SquareExpander::reach(HalfEdge edge, const Cone& cone) {
     if (cross(r, l) <= -square_.half * extent(r, l)) return;
     touched_.push_back(edge);
     passed.count = 1;
-    if (near.passage[i] == Passage::wall) {
-      walls_->push_back(edge);
-      return;
+    if (t_->passageOutwards(edge / 3, i) != Passage::clear) {
+      ends_->push_back(edge);
+      passed.count = kMostWidenings + 1;
+    } else if (near.neighbor[i] == Triangulation::kNone) {
+      passed.count = kMostWidenings + 1;
+    } else {
+      passed.cone = cone;
+      wait(edge, near.neighbor[i]);
     }
-    if (near.neighbor[i] == Triangulation::kNone) return;
-    if (near.passage[i] == Passage::open) open_->push_back(edge);
-    passed.cone = cone;
-    wait(edge, near.neighbor[i]);
     return;
   }
-  if (near.passage[i] == Passage::wall || near.neighbor[i] == Triangulation::kNone) return;
-  if (passed.count > kMostWidenings) return;  // open to the whole edge
+  if (passed.count > kMostWidenings) return;  // an end, or open to the whole edge
   Cone wide{joined(passed.cone.right, cone.right, right, Side::right),
             joined(passed.cone.left, cone.left, left, Side::left)};
   if (wide.right == passed.cone.right && wide.left == passed.cone.left) return;

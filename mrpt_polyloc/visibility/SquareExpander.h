@@ -15,17 +15,17 @@ struct Square {
 };
 
 /// Finds what may be seen from some point of a square, by expansion as for a point (ViewExpander)
-/// with "from some point of the square" for "from the point": a superset, for each limit of the cone
-/// of sight is held against its own best point of the square, and the cones that reach an edge by
-/// several ways (around holes) are joined.
+/// with "from some point of the square" for "from the point": a superset, for each limit of the
+/// cone of sight is held against its own best point of the square, and the cones that reach an edge
+/// by several ways (around holes) are joined.
 ///
 /// Whether x lies left of the ray from p through a limit r is the sign of an affine function of p;
 /// with r, x and p relative to the centre its extremes over the square are
 /// r.x * x.y - r.y * x.x +- half * (|x.x - r.x| + |x.y - r.y|).
 ///
-/// Faces are entered near ones first (by the power of the centre to their circles, which is an order
-/// of visibility in a Delaunay triangulation), so that an edge is mostly followed once, with all the
-/// cones that reach it.
+/// Faces are entered near ones first (by the power of the centre to their circles, which is an
+/// order of visibility in a Delaunay triangulation), so that an edge is mostly followed once, with
+/// all the cones that reach it.
 ///
 /// Keeps its memory between calls: use one per thread.
 class SquareExpander {
@@ -34,10 +34,10 @@ class SquareExpander {
 
   explicit SquareExpander(const Triangulation& triangulation);
 
-  /// The walls that may be seen, from the side of their face, and the edges with passage open that
-  /// may be passed, in no order. `faces` are those that overlap the square.
+  /// Where the view may end, in no order: walls, seen from the side of their face, and open edges
+  /// that lead out of free space. `faces` are those that overlap the square.
   void expand(const Square& square, const std::vector<std::int32_t>& faces,
-              std::vector<HalfEdge>& walls, std::vector<HalfEdge>& open);
+              std::vector<HalfEdge>& ends);
 
  private:
   /// Limits of a cone of sight on one side: two vertices, or one twice. Which of two is the tighter
@@ -76,8 +76,7 @@ class SquareExpander {
   const Triangulation* t_;
   std::vector<Circle> circles_;  ///< around the faces
   Square square_{{0, 0}, 0};
-  std::vector<HalfEdge>* walls_ = nullptr;
-  std::vector<HalfEdge>* open_ = nullptr;
+  std::vector<HalfEdge>* ends_ = nullptr;
   std::vector<Passed> passed_;
   std::vector<HalfEdge> touched_;
   std::vector<Waiting> queue_;  ///< a heap

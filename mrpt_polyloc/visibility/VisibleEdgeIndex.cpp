@@ -32,7 +32,11 @@ bool overlap(const Triangulation& t, const Triangulation::Face& face, const Squa
 
 VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, double cell_size,
                                    int threads)
-    : chains_(triangulation), cell_size_(cell_size) {
+    : VisibleEdgeIndex(triangulation, triangulation.wallsAlone(), cell_size, threads) {}
+
+VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, const Triangulation& walls,
+                                   double cell_size, int threads)
+    : chains_(triangulation, walls), cell_size_(cell_size) {
   if (!(cell_size > 0.0)) {
     throw InvalidParamsError("cell_size: " + std::to_string(cell_size) + " is not positive");
   }
@@ -47,8 +51,21 @@ VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, double ce
   }
   columns_ = static_cast<int>(columns);
   rows_ = static_cast<int>(rows);
-  numberLists(triangulation);
-  buildLists(triangulation, threads);
+  const std::size_t lists = numberLists(triangulation);
+  const auto seen_walls = findRuns(walls, lists, threads, [this](std::size_t face, std::size_t i) {
+    return chains_.wallNumber(face, i);
+  });
+  const auto seen_open =
+      findRuns(triangulation, lists, threads,
+               [this](std::size_t face, std::size_t i) { return chains_.openNumber(face, i); });
+  list_begin_.push_back(0);
+  for (std::size_t i = 0; i < lists; ++i) {
+    for (const auto* runs : {&seen_walls[i], &seen_open[i]}) {
+      runs_.insert(runs_.end(), runs->begin(), runs->end());
+      list_begin_.push_back(static_cast<std::uint32_t>(runs_.size()));
+    }
+  }
+  runs_.shrink_to_fit();
 }
 
 template <class Visitor>
@@ -79,7 +96,7 @@ Square VisibleEdgeIndex::square(int column, int row) const {
           (0.5 + 1e-6) * cell_size_};
 }
 
-void VisibleEdgeIndex::numberLists(const Triangulation& t) {
+std::size_t VisibleEdgeIndex::numberLists(const Triangulation& t) {
   std::vector<char> touches_free(static_cast<std::size_t>(columns_) *
                                  static_cast<std::size_t>(rows_));
   const auto number = [this](int column, int row) {
@@ -103,11 +120,12 @@ void VisibleEdgeIndex::numberLists(const Triangulation& t) {
       if (near_free) list_of_cell_[number(column, row)] = lists++;
     }
   }
-  list_begin_.assign(2 * static_cast<std::size_t>(lists) + 1, 0);
+  return static_cast<std::size_t>(lists);
 }
 
-void VisibleEdgeIndex::buildLists(const Triangulation& t, int threads) {
-  const std::size_t lists = list_begin_.size() / 2;
+template <class Numbers>
+std::vector<std::vector<VisibleEdgeIndex::Run>> VisibleEdgeIndex::findRuns(
+    const Triangulation& t, std::size_t lists, int threads, const Numbers& number) const {
   std::vector<Square> squares(lists, Square{{0, 0}, 0});
   std::vector<std::vector<std::int32_t>> faces(lists);
   forEachOverlap(t, [&](std::size_t f, int column, int row) {
@@ -120,48 +138,38 @@ void VisibleEdgeIndex::buildLists(const Triangulation& t, int threads) {
     if (overlap(t, t.faces()[f], squares[i])) faces[i].push_back(static_cast<std::int32_t>(f));
   });
 
-  struct Lists {
-    std::vector<Run> walls, open;
-  };
   struct Worker {
     SquareExpander expander;
-    std::vector<SquareExpander::HalfEdge> walls, open;
+    std::vector<SquareExpander::HalfEdge> ends;
+    std::vector<std::uint32_t> numbers;
   };
-  std::vector<Lists> built(lists);
   tbb::enumerable_thread_specific<Worker> workers([&t] {
     return Worker{SquareExpander(t), {}, {}};
   });
+  std::vector<std::vector<Run>> runs(lists);
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lists, 16), [&](const auto& range) {
       Worker& worker = workers.local();
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
-        worker.walls.clear();
-        worker.open.clear();
-        worker.expander.expand(squares[i], faces[i], worker.walls, worker.open);
-        built[i] = {runsOf(worker.walls), runsOf(worker.open)};
+        worker.ends.clear();
+        worker.numbers.clear();
+        worker.expander.expand(squares[i], faces[i], worker.ends);
+        for (const SquareExpander::HalfEdge edge : worker.ends) {
+          const std::uint32_t n = number(edge / 3, edge % 3);
+          if (n != BoundaryChains::kNone) worker.numbers.push_back(n);
+        }
+        runs[i] = runsOf(worker.numbers);
       }
     });
   });
-  for (std::size_t i = 0; i < lists; ++i) {
-    runs_.insert(runs_.end(), built[i].walls.begin(), built[i].walls.end());
-    list_begin_[2 * i + 1] = static_cast<std::uint32_t>(runs_.size());
-    runs_.insert(runs_.end(), built[i].open.begin(), built[i].open.end());
-    list_begin_[2 * i + 2] = static_cast<std::uint32_t>(runs_.size());
-  }
-  runs_.shrink_to_fit();
+  return runs;
 }
 
-/// Runs that cover half edges, with small gaps filled: what is listed without being seen is hidden
+/// Runs that cover edges, with small gaps filled: what is listed without being seen is hidden
 /// behind the rest.
 std::vector<VisibleEdgeIndex::Run> VisibleEdgeIndex::runsOf(
-    const std::vector<std::uint32_t>& half_edges) const {
-  std::vector<std::uint32_t> numbers;
-  numbers.reserve(half_edges.size());
-  for (const std::uint32_t edge : half_edges) {
-    const std::uint32_t number = chains_.number(edge / 3, edge % 3);
-    if (number != BoundaryChains::kNone) numbers.push_back(number);
-  }
+    std::vector<std::uint32_t>& numbers) const {
   std::sort(numbers.begin(), numbers.end());
   std::vector<Run> runs;
   for (const std::uint32_t number : numbers) {

@@ -45,9 +45,15 @@ class VisibleEdgeIndex {
   template <class Visitor>
   void forEachOverlap(const Triangulation& t, Visitor&& visit) const;
   Square square(int column, int row) const;
-  void numberLists(const Triangulation& t);
-  void buildLists(const Triangulation& t, int threads);
-  std::vector<Run> runsOf(const std::vector<std::uint32_t>& half_edges) const;
+  /// Numbers the cells to be indexed; returns how many there are.
+  std::size_t numberLists(const Triangulation& t);
+  /// The runs seen from each indexed cell, given the numbers of a triangulation's edges.
+  template <class Numbers>
+  std::vector<std::vector<Run>> findRuns(const Triangulation& t, std::size_t lists, int threads,
+                                         const Numbers& number) const;
+  std::vector<Run> runsOf(std::vector<std::uint32_t>& numbers) const;
+  VisibleEdgeIndex(const Triangulation& triangulation, const Triangulation& walls, double cell_size,
+                   int threads);
 
   BoundaryChains chains_;
   TPoint2D corner_;  ///< lower left, of cell (0, 0)
