@@ -27,21 +27,30 @@ struct ScanScore {
   double ms = 0.0;         ///< search and refinement
 };
 
+/// Compares the answer to one scan with the truth: right is what lies within both tolerances
+/// (inclusive), headings compared modulo 2 pi.
 ScanScore scoreScan(const LocalizationResult& result, const mrpt::math::TPose2D& truth,
                     const Tolerance& tolerance = {});
 
-/// Success rates and times over many scans, as summary.json holds them.
+/// The percentile of values by linear interpolation between order statistics: share 0 is the
+/// least, 1 the greatest, 0.5 the median (the mean of the two middle ones if their number is even).
+/// NaN if there are no values. O(n).
+double percentile(std::vector<double> values, double share);
+
+/// Success rates and times over many scans, as summary.json holds them. All zero for no scans.
 struct Summary {
   std::size_t scans = 0;
   double top1 = 0, top5 = 0, top20 = 0;  ///< fractions with a right pose among the first k
   double in_list = 0;                    ///< fraction with a right pose anywhere
   std::optional<double> unique_right;    ///< of those called unique, right ones
   std::optional<double> median_error_m, median_error_deg;  ///< over right first answers
-  double ms_median = 0, ms_p90 = 0, ms_max = 0;
-  std::array<std::size_t, 4> status{};  ///< counts, by LocalizationStatus
+  double ms_median = 0, ms_p90 = 0, ms_max = 0;            ///< see percentile()
+  std::array<std::size_t, 4> status{};                     ///< counts, by LocalizationStatus
 };
 
-/// The summary of those scores whose indices are given; of all if `rows` is null.
+/// The summary of those scores whose indices are given; of all if `rows` is null. Scans called
+/// no_match or too_few_beams count as misses.
+/// \throws std::out_of_range if there is no score of that index.
 Summary summarize(const std::vector<ScanScore>& scores,
                   const std::vector<std::size_t>* rows = nullptr);
 

@@ -25,7 +25,8 @@ std::vector<StampedPose> loadTum(const std::string& path);
 /// One TUM line per pose, stamps with nanoseconds, lengths with micrometres.
 std::string toTum(const std::vector<StampedPose>& poses);
 
-/// The true pose of each scan, matched by stamp within 1 ms.
+/// The true pose of each scan, matched by stamp within 1 ms. One pose may be the truth of several
+/// scans (lasers that fire together).
 /// \throws FormatError(path, ...) naming scan or line if a scan has no truth or two, or a truth no
 /// scan.
 std::vector<mrpt::math::TPose2D> matchTruth(const std::vector<RangeScan>& scans,

@@ -38,6 +38,10 @@ void checkRing(const Ring& ring, bool outer) {
   }
   checkFinite(ring.vertices, what);
   const double area = signedArea(ring.vertices);
+  if (!std::isfinite(area)) {
+    throw InvalidMapError(std::string(what) + " too large for its area to be a number" +
+                          at(ring.vertices.front()));
+  }
   if (outer ? area <= 0.0 : area >= 0.0) {
     throw InvalidMapError(std::string(what) + " of zero area or wrong orientation" +
                           at(ring.vertices.front()));
@@ -130,6 +134,7 @@ std::vector<const Ring*> PolygonMap::rings() const {
 }
 
 bool PolygonMap::contains(const TPoint2D& point) const {
+  if (!std::isfinite(point.x) || !std::isfinite(point.y)) return false;
   bool inside = false;  // even-odd over all rings: they do not cross
   for (const Ring* ring : rings()) {
     bool on_border = false;
@@ -204,6 +209,8 @@ double PolygonMap::wallsBeyondLength() const {
 
 std::uint64_t PolygonMap::hash() const {
   Fnv1a hash;
+  hash.add(components_.size());
+  for (const FreePolygon& component : components_) hash.add(component.holes.size());
   for (const Ring* ring : rings()) {
     hash.add(ring->size());
     for (const TPoint2D& p : ring->vertices) hash.add(p);

@@ -9,7 +9,23 @@ namespace {
 
 /// Directions are counted counterclockwise: 0 = +x, 1 = +y, 2 = -x, 3 = -y.
 constexpr int kDirections = 4;
-constexpr std::array<Corner, kDirections> kStep{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+constexpr std::array<int, kDirections> kStepX{1, 0, -1, 0};
+constexpr std::array<int, kDirections> kStepY{0, 1, 0, -1};
+
+/// Corner (x, y) of the grid is the lower left one of cell (x, y).
+struct Corner {
+  int x;
+  int y;
+
+  LatticePoint point() const { return {x * kLatticePerCell, y * kLatticePerCell}; }
+  Corner next(int direction) const {
+    return {x + kStepX[static_cast<std::size_t>(direction)],
+            y + kStepY[static_cast<std::size_t>(direction)]};
+  }
+};
+bool operator==(const Corner& a, const Corner& b) {
+  return a.x == b.x && a.y == b.y;
+}
 
 int opposite(int direction) {
   return (direction + 2) % kDirections;
@@ -77,10 +93,7 @@ class Tracer {
 
   /// A side is named by its lower or left corner and whether it is vertical.
   std::vector<bool>::reference traced(Corner corner, int direction) {
-    if (direction >= 2) {
-      corner.x += kStep[static_cast<std::size_t>(direction)].x;
-      corner.y += kStep[static_cast<std::size_t>(direction)].y;
-    }
+    if (direction >= 2) corner = corner.next(direction);
     return traced_[static_cast<std::size_t>(direction % 2)]
                   [static_cast<std::size_t>(corner.y) * columns_ +
                    static_cast<std::size_t>(corner.x)];
@@ -89,25 +102,24 @@ class Tracer {
 
   void follow(const Corner& start, int direction) {
     const Surroundings at_start = around(start);
-    BorderChain chain{borders_.corners.size(), 0, at_start.left(direction),
+    BorderChain chain{borders_.points.size(), 0, at_start.left(direction),
                       at_start.right(direction)};
-    borders_.corners.push_back(start);
+    borders_.points.push_back(start.point());
     Corner corner = start;
     while (true) {
       traced(corner, direction) = true;
-      corner.x += kStep[static_cast<std::size_t>(direction)].x;
-      corner.y += kStep[static_cast<std::size_t>(direction)].y;
+      corner = corner.next(direction);
       const Surroundings here = around(corner);
       if (corner == start || here.degree() != 2) break;
       const int turn = nextDirection(here, direction);
-      if (turn != direction) borders_.corners.push_back(corner);
+      if (turn != direction) borders_.points.push_back(corner.point());
       direction = turn;
     }
-    borders_.corners.push_back(corner);
-    chain.end = borders_.corners.size();
+    borders_.points.push_back(corner.point());
+    chain.end = borders_.points.size();
     if (chain.right >= 0) {
-      std::reverse(borders_.corners.begin() + static_cast<std::ptrdiff_t>(chain.begin),
-                   borders_.corners.end());
+      std::reverse(borders_.points.begin() + static_cast<std::ptrdiff_t>(chain.begin),
+                   borders_.points.end());
       std::swap(chain.left, chain.right);
     }
     borders_.chains.push_back(chain);

@@ -1,22 +1,18 @@
 #include <mrpt_polyloc/geometry/chain_simplification.h>
+#include <mrpt_polyloc/geometry/vertex_bitmap.h>
 
 #include <algorithm>
-#include <array>
+#include <cstdlib>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <tuple>
 #include <unordered_set>
+#include <utility>
 
 namespace mrpt_polyloc {
 namespace {
 
-std::int64_t floorDivide(std::int64_t a, std::int64_t b) {
-  const std::int64_t quotient = a / b;
-  return quotient - (a % b != 0 && (a < 0) != (b < 0));
-}
-
-double squaredDistance(const Corner& p, const Corner& a, const Corner& b) {
+double squaredDistance(const LatticePoint& p, const LatticePoint& a, const LatticePoint& b) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
   const double px = p.x - a.x;
@@ -31,115 +27,121 @@ double squaredDistance(const Corner& p, const Corner& a, const Corner& b) {
   return across * across / squared_length;
 }
 
-/// One bit per corner of the bitmap: whether a chain has a vertex there now.
-class VertexBitmap {
- public:
-  VertexBitmap(int width, int height)
-      : words_per_row_(static_cast<std::size_t>(width) / 64 + 1),
-        words_(words_per_row_ * (static_cast<std::size_t>(height) + 1), 0) {}
-
-  void set(const Corner& c) { word(c) |= bit(c); }
-  void clear(const Corner& c) { word(c) &= ~bit(c); }
-
-  /// Whether a vertex lies in the closed triangle, its own corners aside.
-  bool hasOtherVertexIn(const std::array<Corner, 3>& triangle) {
-    for (const Corner& c : triangle) clear(c);
-    const bool found = hasVertexIn(triangle);
-    for (const Corner& c : triangle) set(c);
-    return found;
+/// The tolerance of one chain in lattice units.
+double toleranceOf(const BorderChains& borders, const BorderChain& chain, double tolerance_cells) {
+  const double tolerance = tolerance_cells * kLatticePerCell;
+  if (!borders.isClosed(chain)) return tolerance;
+  LatticePoint low = borders.first(chain);
+  LatticePoint high = low;
+  for (std::size_t i = chain.begin; i < chain.end; ++i) {
+    const LatticePoint& p = borders.points[i];
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
+  return std::min(tolerance, 0.5 * std::min(high.x - low.x, high.y - low.y));
+}
 
- private:
-  static std::uint64_t bit(const Corner& c) { return std::uint64_t{1} << (c.x % 64); }
-  std::uint64_t& word(const Corner& c) {
-    return words_[static_cast<std::size_t>(c.y) * words_per_row_ +
-                  static_cast<std::size_t>(c.x) / 64];
+/// Chains with all points that a simplified border has to stay close to, and which of them are its
+/// vertices so far.
+struct PreparedChains {
+  BorderChains borders;
+  std::vector<char> is_vertex;    ///< per point
+  std::vector<double> tolerance;  ///< per chain, in lattice units
+
+  void add(const LatticePoint& point, bool vertex) {
+    borders.points.push_back(point);
+    is_vertex.push_back(vertex);
   }
-
-  bool hasVertexIn(const std::array<Corner, 3>& t) const {
-    const auto [low, high] = std::minmax({t[0].y, t[1].y, t[2].y});
-    for (std::int32_t y = low; y <= high; ++y) {
-      std::int64_t from = std::numeric_limits<std::int64_t>::max();
-      std::int64_t to = std::numeric_limits<std::int64_t>::min();
-      for (std::size_t i = 0; i < 3; ++i) {
-        Corner a = t[i];
-        Corner b = t[(i + 1) % 3];
-        if (a.y > b.y) std::swap(a, b);
-        if (y < a.y || y > b.y || a.y == b.y) continue;
-        const std::int64_t rise = b.y - a.y;
-        const std::int64_t run = static_cast<std::int64_t>(b.x - a.x) * (y - a.y);
-        from = std::min(from, a.x - floorDivide(-run, rise));
-        to = std::max(to, a.x + floorDivide(run, rise));
-      }
-      if (from <= to && hasVertexInRow(y, from, to)) return true;
-    }
-    return false;
-  }
-
-  bool hasVertexInRow(std::int32_t y, std::int64_t from, std::int64_t to) const {
-    const std::uint64_t* const row = words_.data() + static_cast<std::size_t>(y) * words_per_row_;
-    const std::int64_t first = from / 64;
-    const std::int64_t last = to / 64;
-    for (std::int64_t i = first; i <= last; ++i) {
-      std::uint64_t bits = row[i];
-      if (i == first) bits &= ~std::uint64_t{0} << (from % 64);
-      if (i == last) bits &= ~std::uint64_t{0} >> (63 - to % 64);
-      if (bits != 0) return true;
-    }
-    return false;
-  }
-
-  std::size_t words_per_row_;
-  std::vector<std::uint64_t> words_;
 };
+
+/// Whether the side from point i to point i + 1 is a step of a staircase between inner points.
+bool isStep(const BorderChains& borders, const BorderChain& chain, std::size_t i) {
+  if (i <= chain.begin || i + 2 >= chain.end) return false;
+  const LatticePoint* const p = borders.points.data() + i;
+  const bool one_cell = std::abs(p[1].x - p[0].x) + std::abs(p[1].y - p[0].y) == kLatticePerCell;
+  return one_cell && (cross(p[-1], p[0], p[1]) > 0) != (cross(p[0], p[1], p[2]) > 0);
+}
+
+/// Shrinks steps to their midpoints. Never changes the topology: what is cut off lies within half a
+/// cell of a side, where no other border can be without touching that side.
+PreparedChains shrinkSteps(const BorderChains& borders, double tolerance_cells) {
+  PreparedChains prepared;
+  for (BorderChain chain : borders.chains) {
+    const double tolerance = toleranceOf(borders, chain, tolerance_cells);
+    const bool shrink = tolerance >= 0.5 * kLatticePerCell;
+    const std::size_t begin = prepared.borders.points.size();
+    bool after_step = false;
+    for (std::size_t i = chain.begin; i < chain.end; ++i) {
+      const LatticePoint& p = borders.points[i];
+      const bool before_step = shrink && isStep(borders, chain, i);
+      prepared.add(p, !before_step && !after_step);
+      if (before_step) {
+        const LatticePoint& q = borders.points[i + 1];
+        prepared.add({(p.x + q.x) / 2, (p.y + q.y) / 2}, true);
+      }
+      after_step = before_step;
+    }
+    chain.begin = begin;
+    chain.end = prepared.borders.points.size();
+    prepared.borders.chains.push_back(chain);
+    prepared.tolerance.push_back(tolerance);
+  }
+  return prepared;
+}
 
 /// Chains that are one straight edge between two nodes: no second one may be laid over it.
 class StraightChains {
  public:
-  explicit StraightChains(int width) : columns_(static_cast<std::uint64_t>(width) + 1) {}
-
-  void insert(const Corner& a, const Corner& b) { keys_.insert(key(a, b)); }
-  bool contains(const Corner& a, const Corner& b) const { return keys_.count(key(a, b)) != 0; }
+  void insert(const LatticePoint& a, const LatticePoint& b) { keys_.insert(key(a, b)); }
+  bool contains(const LatticePoint& a, const LatticePoint& b) const {
+    return keys_.count(key(a, b)) != 0;
+  }
 
  private:
-  std::uint64_t id(const Corner& c) const {
-    return static_cast<std::uint64_t>(c.y) * columns_ + static_cast<std::uint64_t>(c.x);
-  }
-  std::uint64_t key(const Corner& a, const Corner& b) const {
-    const auto [low, high] = std::minmax({id(a), id(b)});  // by value
-    return low << 32 | high;
+  using Key = std::pair<std::uint64_t, std::uint64_t>;
+  struct Hash {
+    std::size_t operator()(const Key& key) const {
+      return std::hash<std::uint64_t>()(key.first * 0x9E3779B97F4A7C15ULL ^ key.second);
+    }
+  };
+  static Key key(const LatticePoint& a, const LatticePoint& b) {
+    return std::minmax({latticeKey(a), latticeKey(b)});
   }
 
-  std::uint64_t columns_;
-  std::unordered_set<std::uint64_t> keys_;
+  std::unordered_set<Key, Hash> keys_;
 };
 
+/// Removes vertices chain by chain.
 class Simplifier {
  public:
-  Simplifier(const BorderChains& borders, int width, int height, double tolerance)
-      : borders_(borders), tolerance_(tolerance), vertices_(width, height), straight_(width) {}
+  Simplifier(const PreparedChains& prepared, int width, int height)
+      : prepared_(prepared), vertices_(width * kLatticePerCell + 1, height * kLatticePerCell + 1) {}
 
   BorderChains run() {
-    for (const Corner& corner : borders_.corners) vertices_.set(corner);
-    for (const BorderChain& chain : borders_.chains) {
-      if (chain.end - chain.begin == 2)
-        straight_.insert(borders_.first(chain), borders_.last(chain));
+    const BorderChains& borders = prepared_.borders;
+    for (std::size_t i = 0; i < borders.points.size(); ++i) {
+      if (prepared_.is_vertex[i]) vertices_.insert(borders.points[i]);
+    }
+    for (const BorderChain& chain : borders.chains) {
+      if (chain.end - chain.begin == 2) {
+        straight_.insert(borders.first(chain), borders.last(chain));
+      }
     }
     BorderChains simplified;
-    simplified.chains.reserve(borders_.chains.size());
-    for (const BorderChain& chain : borders_.chains) {
-      simplify(chain);
-      BorderChain result = chain;
-      result.begin = simplified.corners.size();
-      for (std::size_t i = 0; i < size_; i = next_[i]) simplified.corners.push_back(corner_[i]);
-      result.end = simplified.corners.size();
+    simplified.chains.reserve(borders.chains.size());
+    for (std::size_t c = 0; c < borders.chains.size(); ++c) {
+      simplify(c);
+      BorderChain result = borders.chains[c];
+      result.begin = simplified.points.size();
+      for (std::size_t i = 0; i < size_; i = next_[i]) simplified.points.push_back(point_[i]);
+      result.end = simplified.points.size();
       simplified.chains.push_back(result);
     }
     return simplified;
   }
 
  private:
-  /// The corner that is cheapest to remove comes first, among equals the first of the chain.
+  /// The vertex that is cheapest to remove comes first, among equals the first of the chain.
   struct Candidate {
     double cost;
     std::size_t index;
@@ -150,23 +152,11 @@ class Simplifier {
   };
   using Queue = std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>>;
 
-  void simplify(const BorderChain& chain) {
-    corner_ = borders_.corners.data() + chain.begin;
-    size_ = chain.end - chain.begin;
-    closed_ = borders_.isClosed(chain);
-    left_ = size_;
-    previous_.resize(size_);
-    next_.resize(size_);
-    version_.assign(size_, 0);
-    for (std::size_t i = 0; i < size_; ++i) {
-      previous_[i] = i - 1;
-      next_[i] = i + 1;
-    }
-    const double tolerance = chainTolerance();
-    limit_ = tolerance * tolerance;
+  void simplify(std::size_t chain_index) {
+    load(chain_index);
     if (limit_ == 0.0) return;
     Queue queue;
-    for (std::size_t i = 1; i + 1 < size_; ++i) offer(i, queue);
+    for (std::size_t i = next_[0]; i + 1 < size_; i = next_[i]) offer(i, queue);
     while (!queue.empty()) {
       const Candidate candidate = queue.top();
       queue.pop();
@@ -178,13 +168,23 @@ class Simplifier {
     }
   }
 
-  double chainTolerance() const {
-    if (!closed_) return tolerance_;
-    const auto [left, right] = std::minmax_element(
-        corner_, corner_ + size_, [](const Corner& a, const Corner& b) { return a.x < b.x; });
-    const auto [low, high] = std::minmax_element(
-        corner_, corner_ + size_, [](const Corner& a, const Corner& b) { return a.y < b.y; });
-    return std::min(tolerance_, 0.5 * std::min(right->x - left->x, high->y - low->y));
+  void load(std::size_t chain_index) {
+    const BorderChain& chain = prepared_.borders.chains[chain_index];
+    point_ = prepared_.borders.points.data() + chain.begin;
+    size_ = chain.end - chain.begin;
+    closed_ = prepared_.borders.isClosed(chain);
+    limit_ = prepared_.tolerance[chain_index] * prepared_.tolerance[chain_index];
+    previous_.resize(size_);
+    next_.assign(size_, size_);
+    version_.assign(size_, 0);
+    vertex_count_ = 1;
+    for (std::size_t i = 1, last = 0; i < size_; ++i) {
+      if (!prepared_.is_vertex[chain.begin + i]) continue;
+      previous_[i] = last;
+      next_[last] = i;
+      last = i;
+      ++vertex_count_;
+    }
   }
 
   void offer(std::size_t i, Queue& queue) {
@@ -193,45 +193,44 @@ class Simplifier {
     if (cost <= limit_) queue.push({cost, i, version_[i]});
   }
 
-  /// Greatest squared distance of the original corners from the edge that would replace them, or
-  /// anything beyond the limit.
+  /// Greatest squared distance of the exact border's points from the edge that would replace them,
+  /// or anything beyond the limit.
   double removalCost(std::size_t i) const {
-    const Corner& a = corner_[previous_[i]];
-    const Corner& b = corner_[next_[i]];
+    const LatticePoint& a = point_[previous_[i]];
+    const LatticePoint& b = point_[next_[i]];
     double cost = 0.0;
     for (std::size_t k = previous_[i] + 1; k < next_[i] && cost <= limit_; ++k) {
-      cost = std::max(cost, squaredDistance(corner_[k], a, b));
+      cost = std::max(cost, squaredDistance(point_[k], a, b));
     }
     return cost;
   }
 
   bool isRemovable(std::size_t i) {
-    if (closed_ && left_ <= 4) return false;  // three corners and the first one again
-    const Corner& a = corner_[previous_[i]];
-    const Corner& b = corner_[next_[i]];
-    const bool becomes_straight = previous_[i] == 0 && next_[i] == size_ - 1;
+    if (closed_ && vertex_count_ <= 4) return false;  // three and the first one again
+    const LatticePoint& a = point_[previous_[i]];
+    const LatticePoint& b = point_[next_[i]];
+    const bool becomes_straight = vertex_count_ == 3;
     if (becomes_straight && straight_.contains(a, b)) return false;
-    return !vertices_.hasOtherVertexIn({a, corner_[i], b});
+    return !vertices_.hasOtherIn({a, point_[i], b});
   }
 
   void remove(std::size_t i) {
-    vertices_.clear(corner_[i]);
+    vertices_.erase(point_[i]);
     next_[previous_[i]] = next_[i];
     previous_[next_[i]] = previous_[i];
     ++version_[i];
-    --left_;
-    if (left_ == 2) straight_.insert(corner_[0], corner_[size_ - 1]);
+    --vertex_count_;
+    if (vertex_count_ == 2) straight_.insert(point_[0], point_[size_ - 1]);
   }
 
-  const BorderChains& borders_;
-  const double tolerance_;
+  const PreparedChains& prepared_;
   VertexBitmap vertices_;
   StraightChains straight_;
 
-  // The chain at hand: a doubly linked list over its corners.
-  const Corner* corner_ = nullptr;
+  // The chain at hand: a doubly linked list of vertices among its points.
+  const LatticePoint* point_ = nullptr;
   std::size_t size_ = 0;
-  std::size_t left_ = 0;  ///< corners not removed
+  std::size_t vertex_count_ = 0;
   bool closed_ = false;
   double limit_ = 0.0;  ///< squared tolerance
   std::vector<std::size_t> previous_;
@@ -241,8 +240,10 @@ class Simplifier {
 
 }  // namespace
 
-BorderChains simplifyChains(const BorderChains& borders, int width, int height, double tolerance) {
-  return Simplifier(borders, width, height, tolerance).run();
+BorderChains simplifyChains(const BorderChains& borders, int width, int height,
+                            double tolerance_cells) {
+  const PreparedChains prepared = shrinkSteps(borders, tolerance_cells);
+  return Simplifier(prepared, width, height).run();
 }
 
 }  // namespace mrpt_polyloc

@@ -8,10 +8,6 @@
 namespace mrpt_polyloc {
 namespace {
 
-std::uint64_t cornerKey(const Corner& c) {
-  return static_cast<std::uint64_t>(c.y) << 32 | static_cast<std::uint32_t>(c.x);
-}
-
 /// Walks along chains of one component and cuts off a ring whenever it comes back to a corner.
 class RingWalk {
  public:
@@ -20,7 +16,7 @@ class RingWalk {
   explicit RingWalk(const BorderChains& borders) : borders_(borders) {
     for (std::size_t i = 0; i < borders.chains.size(); ++i) {
       const BorderChain& chain = borders.chains[i];
-      if (chain.left >= 0) leaving_.push_back({chain.left, cornerKey(borders.first(chain)), i});
+      if (chain.left >= 0) leaving_.push_back({chain.left, latticeKey(borders.first(chain)), i});
     }
     std::sort(leaving_.begin(), leaving_.end());
     used_.assign(borders.chains.size(), false);
@@ -38,7 +34,7 @@ class RingWalk {
         used_[chain] = true;
         position[firstKey(chain)] = path.size();
         path.push_back(chain);
-        const std::uint64_t corner = cornerKey(borders_.last(borders_.chains[chain]));
+        const std::uint64_t corner = latticeKey(borders_.last(borders_.chains[chain]));
         if (const auto found = position.find(corner); found != position.end()) {
           const auto cut = path.begin() + static_cast<std::ptrdiff_t>(found->second);
           const Chains ring(cut, path.end());
@@ -63,7 +59,7 @@ class RingWalk {
   };
 
   std::uint64_t firstKey(std::size_t chain) const {
-    return cornerKey(borders_.first(borders_.chains[chain]));
+    return latticeKey(borders_.first(borders_.chains[chain]));
   }
 
   /// At every corner as many chains of a component leave as arrive, so there is one.
@@ -80,25 +76,25 @@ class RingWalk {
 };
 
 std::int64_t twiceSignedArea(const BorderChains& borders, const RingWalk::Chains& ring) {
-  const Corner origin = borders.first(borders.chains[ring.front()]);
+  const LatticePoint origin = borders.first(borders.chains[ring.front()]);
   std::int64_t twice = 0;
   for (const std::size_t index : ring) {
     const BorderChain& chain = borders.chains[index];
     for (std::size_t i = chain.begin + 1; i < chain.end; ++i) {
-      twice += cross(origin, borders.corners[i - 1], borders.corners[i]);
+      twice += cross(origin, borders.points[i - 1], borders.points[i]);
     }
   }
   return twice;
 }
 
 Ring placeRing(const BorderChains& borders, const RingWalk::Chains& ring,
-               const CornerPlacement& place) {
+               const LatticePlacement& place) {
   Ring placed;
   for (const std::size_t index : ring) {
     const BorderChain& chain = borders.chains[index];
     const EdgeKind kind = chain.right == RegionGrid::kOccupied ? EdgeKind::wall : EdgeKind::open;
     for (std::size_t i = chain.begin; i + 1 < chain.end; ++i) {
-      placed.vertices.push_back(place(borders.corners[i]));
+      placed.vertices.push_back(place(borders.points[i]));
       placed.kinds.push_back(kind);
     }
   }
@@ -108,7 +104,7 @@ Ring placeRing(const BorderChains& borders, const RingWalk::Chains& ring,
 }  // namespace
 
 std::vector<FreePolygon> assemblePolygons(const BorderChains& borders, int component_count,
-                                          const CornerPlacement& place) {
+                                          const LatticePlacement& place) {
   std::vector<FreePolygon> polygons(static_cast<std::size_t>(component_count));
   RingWalk(borders).forEachRing([&](std::int32_t component, const RingWalk::Chains& ring) {
     FreePolygon& polygon = polygons[static_cast<std::size_t>(component)];
@@ -123,13 +119,13 @@ std::vector<FreePolygon> assemblePolygons(const BorderChains& borders, int compo
 }
 
 std::vector<Polyline> collectWallsBeyond(const BorderChains& borders,
-                                         const CornerPlacement& place) {
+                                         const LatticePlacement& place) {
   std::vector<Polyline> walls;
   for (const BorderChain& chain : borders.chains) {
     if (chain.left >= 0) continue;
     Polyline wall;
     wall.reserve(chain.end - chain.begin);
-    for (std::size_t i = chain.begin; i < chain.end; ++i) wall.push_back(place(borders.corners[i]));
+    for (std::size_t i = chain.begin; i < chain.end; ++i) wall.push_back(place(borders.points[i]));
     walls.push_back(std::move(wall));
   }
   return walls;

@@ -8,16 +8,17 @@
 
 namespace mrpt_polyloc {
 
-/// Places a corner in the map.
-using CornerPlacement = std::function<TPoint2D(const Corner&)>;
+/// Places a lattice point in the map [m].
+using LatticePlacement = std::function<TPoint2D(const LatticePoint&)>;
 
 /// Joins the chains that border on free space into rings and the rings into one polygon per free
 /// component. Where a component touches itself at a corner, the border is cut there into rings that
 /// touch, so that every ring is simple.
 std::vector<FreePolygon> assemblePolygons(const BorderChains& borders, int component_count,
-                                          const CornerPlacement& place);
+                                          const LatticePlacement& place);
 
 /// The chains between occupied and unknown cells; closed ones end where they begin.
-std::vector<Polyline> collectWallsBeyond(const BorderChains& borders, const CornerPlacement& place);
+std::vector<Polyline> collectWallsBeyond(const BorderChains& borders,
+                                         const LatticePlacement& place);
 
 }  // namespace mrpt_polyloc

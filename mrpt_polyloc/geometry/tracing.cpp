@@ -2,6 +2,7 @@
 #include <mrpt_polyloc/geometry/border_chains.h>
 #include <mrpt_polyloc/geometry/chain_simplification.h>
 #include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/geometry/ring_assembly.h>
 #include <mrpt_polyloc/geometry/tracing.h>
 
@@ -19,13 +20,6 @@ std::string toText(double value) {
   return text.str();
 }
 
-void checkNotNegative(double value, const char* field) {
-  if (!std::isfinite(value) || value < 0.0) {
-    throw InvalidParamsError(std::string("TracingParams::") + field + " = " + toText(value) +
-                             " is not in [0, inf)");
-  }
-}
-
 void checkBitmap(const OccupancyBitmap& bitmap) {
   const auto fail = [](const std::string& reason) {
     throw InvalidMapError("occupancy bitmap: " + reason);
@@ -37,8 +31,8 @@ void checkBitmap(const OccupancyBitmap& bitmap) {
   if (bitmap.cells.size() != width * height) {
     fail(std::to_string(bitmap.cells.size()) + " cells given for " + size);
   }
-  // Corners are numbered with 32 bits.
-  if ((width + 1) * (height + 1) > std::numeric_limits<std::uint32_t>::max()) {
+  // Regions are numbered, lattice points measured with 32 bits.
+  if (width * height > std::numeric_limits<std::int32_t>::max() / kLatticePerCell) {
     fail(size + " cells are too many");
   }
   if (!std::isfinite(bitmap.resolution) || bitmap.resolution <= 0.0) {
@@ -51,21 +45,22 @@ void checkBitmap(const OccupancyBitmap& bitmap) {
   }
 }
 
-CornerPlacement placementOf(const OccupancyBitmap& bitmap) {
+LatticePlacement placementOf(const OccupancyBitmap& bitmap) {
   const mrpt::math::TPose2D pose = bitmap.pose_map_bitmap;
-  const double along = bitmap.resolution * std::cos(pose.phi);
-  const double across = bitmap.resolution * std::sin(pose.phi);
-  return [=](const Corner& c) {
-    return TPoint2D{pose.x + along * c.x - across * c.y, pose.y + across * c.x + along * c.y};
+  const double step = bitmap.resolution / kLatticePerCell;
+  const double along = step * std::cos(pose.phi);
+  const double across = step * std::sin(pose.phi);
+  return [=](const LatticePoint& p) {
+    return TPoint2D{pose.x + along * p.x - across * p.y, pose.y + across * p.x + along * p.y};
   };
 }
 
 }  // namespace
 
 void TracingParams::check() const {
-  checkNotNegative(tolerance_cells, "tolerance_cells");
-  checkNotNegative(min_component_area, "min_component_area");
-  checkNotNegative(max_filled_unknown_area, "max_filled_unknown_area");
+  requireNotNegative("tolerance_cells", tolerance_cells);
+  requireNotNegative("min_component_area", min_component_area);
+  requireNotNegative("max_filled_unknown_area", max_filled_unknown_area);
 }
 
 PolygonMap traceBitmap(const OccupancyBitmap& bitmap, const TracingParams& params) {
@@ -83,7 +78,7 @@ PolygonMap traceBitmap(const OccupancyBitmap& bitmap, const TracingParams& param
   }
   const BorderChains borders =
       simplifyChains(traceBorders(regions), bitmap.width, bitmap.height, params.tolerance_cells);
-  const CornerPlacement place = placementOf(bitmap);
+  const LatticePlacement place = placementOf(bitmap);
   return PolygonMap(assemblePolygons(borders, regions.componentCount(), place),
                     collectWallsBeyond(borders, place));
 }

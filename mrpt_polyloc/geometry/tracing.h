@@ -31,12 +31,14 @@ struct TracingParams {
 /// Free cells are connected by their sides: a gap between two obstacles that touch at a corner is
 /// closed. Rings that touch share a vertex; no ring visits a vertex twice.
 ///
-/// The border follows the cell sides exactly and is then simplified without changing its topology:
-/// rings and walls beyond never cross, no ring vanishes, and vertices where wall, open and beyond
-/// meet stay. All choices are made in a fixed order: one bitmap, one map. Linear in the number of
-/// cells, and n log n in the number n of border corners.
-/// \throws InvalidMapError if the bitmap is malformed or no free component is left.
-/// \throws InvalidParamsError naming the bad field of `params`.
+/// The border follows the cell sides exactly and is then simplified; its vertices are corners of
+/// cells and midpoints of their sides. Straight axis-parallel walls stay exact, slanted ones run
+/// through the middle of their staircase. The topology stays: rings and walls beyond never cross,
+/// no ring vanishes, and vertices where wall, open and beyond meet are kept. All choices are made
+/// in a fixed order: one bitmap, one map. Takes time linear in the number of cells and n log n in
+/// the number n of border corners (23 million cells with 800,000 corners: about a second and 300
+/// MB). \throws InvalidMapError if the bitmap is malformed or no free component is left. \throws
+/// InvalidParamsError naming the bad field of `params`.
 PolygonMap traceBitmap(const OccupancyBitmap& bitmap, const TracingParams& params = {});
 
 }  // namespace mrpt_polyloc

@@ -2,7 +2,12 @@
 
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
+#include <mrpt_polyloc/localization/PoseRefiner.h>
+#include <mrpt_polyloc/localization/PyramidSearch.h>
 #include <mrpt_polyloc/localization/RangeScan.h>
+#include <mrpt_polyloc/localization/RobustCost.h>
+#include <mrpt_polyloc/localization/SignatureQuery.h>
+#include <mrpt_polyloc/localization/hypotheses.h>
 
 #include <cstddef>
 #include <memory>
@@ -12,6 +17,16 @@ namespace mrpt_polyloc {
 struct GlobalLocalizerParams {
   std::size_t max_hypotheses = 20;  ///< at most so many are returned
   int threads = 0;                  ///< for building the index; 0: all cores
+  /// Distance of the positions that are compared [m]. Refinement finds the optimum from half of it;
+  /// time and memory grow with its inverse square.
+  double spacing = 0.1;
+  /// Scans with fewer hits are not searched for: so few fit almost everywhere.
+  std::size_t least_hits = 15;
+  RobustCostParams cost;
+  SignatureCosts signature;
+  PyramidSearchParams search;
+  PoseRefinerParams refinement;
+  HypothesisParams hypotheses;
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;

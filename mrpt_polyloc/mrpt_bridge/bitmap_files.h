@@ -8,8 +8,8 @@
 
 namespace mrpt_polyloc {
 
-/// Largest occupancy grid that is read [cells]: 20 km x 1 km at 0.2 m, or 1 km2 at 0.05 m. A
-/// greater one is taken for a damaged file.
+/// Largest occupancy grid that is read [cells]: 1 km2 at 0.05 m. A larger one is taken for a
+/// damaged file.
 constexpr std::int64_t kMaxBitmapCells = 400'000'000;
 
 /// The occupancy grid in a ROS map (.yaml, .yml) or an MRPT .gridmap or .simplemap, the latter two

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/geometry/bitmap_cleaning.h>
 #include <mrpt_polyloc/geometry/tracing.h>
 #include <mrpt_polyloc/geometry/validation.h>
 
@@ -7,9 +8,20 @@
 
 namespace mrpt_polyloc {
 
+/// How grid maps become polygon maps.
+struct GridMapParams {
+  GridMapParams() { tracing.max_filled_unknown_area = 0.5; }
+
+  BitmapCleaningParams cleaning;
+  /// As its defaults, but specks of unknown cells amid free space up to 0.5 m2 count as free:
+  /// single cells that no ray passed, thousands of them in maps made from scans.
+  TracingParams tracing;
+};
+
 /// Any map file the project reads, by extension: .geojson, .wkt, .json (HouseExpo), .yaml/.yml (ROS
-/// map_server), .gridmap[.gz], .simplemap[.gz] (both MRPT's). Grids are traced with `tracing`.
-/// \throws FormatError naming file and place; InvalidMapError with located defects.
-RepairedMap loadMap(const std::string& path, const TracingParams& tracing = {});
+/// map_server), .gridmap[.gz], .simplemap[.gz] (both MRPT's). Grids are cleaned and traced.
+/// \throws FormatError naming file and place; InvalidMapError naming the file, with located
+/// defects.
+RepairedMap loadMap(const std::string& path, const GridMapParams& params = {});
 
 }  // namespace mrpt_polyloc

@@ -1,7 +1,9 @@
 #include <mrpt_polyloc/mrpt_bridge/observation.h>
+#include <mrpt_polyloc/mrpt_bridge/readings.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -36,12 +38,12 @@ void requirePlanar(const mrpt::obs::CObservation2DRangeScan& observation) {
   }
 }
 
-/// See the header for the rules.
-Beam toBeam(double bearing, double range, bool valid, double max_range) {
-  if (!std::isfinite(range) || range <= 0.0) return {};
-  const bool limited = std::isfinite(max_range) && max_range > 0.0;
-  if (valid && !(limited && range >= max_range)) return {bearing, range, BeamKind::hit};
-  return {bearing, limited ? max_range : range, BeamKind::no_return};
+/// MRPT fills its bool with whatever byte a file holds, and to load any but 0 and 1 is undefined.
+bool rightToLeft(const mrpt::obs::CObservation2DRangeScan& observation) {
+  unsigned char byte = 0;
+  static_assert(sizeof(observation.rightToLeft) == sizeof(byte));
+  std::memcpy(&byte, &observation.rightToLeft, sizeof(byte));
+  return byte != 0;
 }
 
 }  // namespace
@@ -53,13 +55,13 @@ RangeScan toRangeScan(const mrpt::obs::CObservation2DRangeScan& observation) {
     refuse(observation, "its aperture is negative or not finite");
   }
   const std::size_t count = observation.getScanSize();
-  const double sweep = observation.rightToLeft ? aperture : -aperture;
+  const double sweep = rightToLeft(observation) ? aperture : -aperture;
   const double step = count > 1 ? sweep / static_cast<double>(count - 1) : 0.0;
   const double first = observation.sensorPose.yaw() - (count > 1 ? 0.5 * sweep : 0.0);
 
   std::vector<Beam> beams(count);
   for (std::size_t i = 0; i < count; ++i) {
-    beams[i] = toBeam(
+    beams[i] = readingToBeam(
         first + static_cast<double>(i) * step, static_cast<double>(observation.getScanRange(i)),
         observation.getScanRangeValidity(i), static_cast<double>(observation.maxRange));
   }

@@ -64,6 +64,7 @@ GrayImage toGray(const mrpt::img::CImage& source) {
   image.width = static_cast<int>(source.getWidth());
   image.height = static_cast<int>(source.getHeight());
   image.max_value = kWhite * colours;
+  image.values.reserve(source.getWidth() * source.getHeight());
   for (unsigned row = 0; row < source.getHeight(); ++row) {
     const Level* pixel = source.ptrLine<Level>(row);
     for (unsigned column = 0; column < source.getWidth(); ++column, pixel += channels) {

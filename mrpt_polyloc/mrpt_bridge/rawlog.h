@@ -12,8 +12,8 @@ namespace mrpt_polyloc {
 /// laser scan is passed over.
 ///
 /// MRPT's CRawlog::loadFromRawLogFile() takes a truncated, damaged or foreign file for a shorter
-/// rawlog and prints to stderr; this reader refuses it. Not to be seen is only a cut of a *plain*
-/// file exactly between two objects.
+/// rawlog and prints to stderr; this reader refuses it. Not to be seen are only a cut of a *plain*
+/// file exactly between two objects, and damage of its values, for it has no checksum.
 /// \param sensor_label only the scans of this sensor; empty: all, if there is one sensor only
 /// \throws FormatError naming the file and the object (from 0): missing, empty, truncated or
 /// foreign file, an object of a class that is not registered (it cannot be skipped: MRPT stores no

@@ -51,29 +51,68 @@ void toRanges(const BeamPattern& beams, const float* to_wall, const float* to_op
 
 struct RangePredictor::Workspace {
   DepthWorkspace depths;
-  std::vector<float> wall, open;  ///< inverse ranges of the sorted beams
+  std::vector<float> wall, open;     ///< inverse ranges of the sorted beams
+  std::vector<float> along, across;  ///< of the lines that the sorted beams hit
 };
 
 RangePredictor::RangePredictor(const Triangulation& triangulation, double cell_size, int threads)
     : box_(triangulation.box()), index_(triangulation, cell_size, threads) {}
+
+/// Calls raise(runs, count, frame, inverse) for the walls and for the open edges that may be seen
+/// from a pose; for none outside the triangulated box.
+template <class RaiseWalls, class RaiseOpen>
+void RangePredictor::forVisible(const mrpt::math::TPose2D& pose, std::int64_t cell,
+                                RaiseWalls&& raise_walls, RaiseOpen&& raise_open) const {
+  const bool is_known = pose.x >= box_.min.x && pose.x <= box_.max.x && pose.y >= box_.min.y &&
+                        pose.y <= box_.max.y && std::isfinite(pose.phi);  // false for NaN
+  if (!is_known) return;
+  const BoundaryChains& chains = index_.chains();
+  const ViewFrame frame = frameOf(pose, chains);
+  VisibleEdgeIndex::Cell seen{chains.walls().data(), chains.walls().size(), chains.open().data(),
+                              chains.open().size()};
+  if (cell >= 0) seen = index_.cell(cell);
+  raise_walls(seen.walls, seen.wall_runs, frame);
+  raise_open(seen.open, seen.open_runs, frame);
+}
 
 void RangePredictor::predict(const mrpt::math::TPose2D& pose, std::int64_t cell,
                              const BeamPattern& beams, Workspace& w, float* wall,
                              float* open) const {
   w.wall.assign(beams.size() + BeamPattern::kPadding, 0.0F);
   w.open.assign(beams.size() + BeamPattern::kPadding, 0.0F);
-  const bool is_known = pose.x >= box_.min.x && pose.x <= box_.max.x && pose.y >= box_.min.y &&
-                        pose.y <= box_.max.y && std::isfinite(pose.phi);  // false for NaN
-  if (is_known) {
-    const BoundaryChains& chains = index_.chains();
-    const ViewFrame frame = frameOf(pose, chains);
-    VisibleEdgeIndex::Cell seen{chains.walls().data(), chains.walls().size(), chains.open().data(),
-                                chains.open().size()};
-    if (cell >= 0) seen = index_.cell(cell);
-    raiseDepths(chains, seen.walls, seen.wall_runs, frame, beams, w.depths, w.wall.data());
-    raiseDepths(chains, seen.open, seen.open_runs, frame, beams, w.depths, w.open.data());
-  }
+  const auto raiseInto = [&](std::vector<float>& inverse) {
+    return [&](const BoundaryChains::Run* runs, std::size_t count, const ViewFrame& frame) {
+      raiseDepths(index_.chains(), runs, count, frame, beams, w.depths, inverse.data());
+    };
+  };
+  forVisible(pose, cell, raiseInto(w.wall), raiseInto(w.open));
   toRanges(beams, w.wall.data(), w.open.data(), wall, open);
+}
+
+void RangePredictor::predict(const mrpt::math::TPose2D& pose_map_beams, const BeamPattern& beams,
+                             PredictedHits& out) const {
+  const std::size_t n = beams.size();
+  for (auto* column : {&out.wall, &out.open, &out.along, &out.across}) column->resize(n);
+  Workspace& w = workspace();
+  for (auto* column : {&w.wall, &w.open, &w.along, &w.across}) {
+    column->assign(n + BeamPattern::kPadding, 0.0F);
+  }
+  const auto raiseWalls = [&](const BoundaryChains::Run* runs, std::size_t count,
+                              const ViewFrame& frame) {
+    raiseDepths(index_.chains(), runs, count, frame, beams, w.depths,
+                HitColumns{w.wall.data(), w.along.data(), w.across.data()});
+  };
+  const auto raiseOpen = [&](const BoundaryChains::Run* runs, std::size_t count,
+                             const ViewFrame& frame) {
+    raiseDepths(index_.chains(), runs, count, frame, beams, w.depths, w.open.data());
+  };
+  forVisible(pose_map_beams, index_.cellNumber({pose_map_beams.x, pose_map_beams.y}), raiseWalls,
+             raiseOpen);
+  toRanges(beams, w.wall.data(), w.open.data(), out.wall.data(), out.open.data());
+  for (std::size_t i = 0; i < n; ++i) {
+    out.along[beams.order()[i]] = w.along[i];
+    out.across[beams.order()[i]] = w.across[i];
+  }
 }
 
 RangePredictor::Workspace& RangePredictor::workspace() {

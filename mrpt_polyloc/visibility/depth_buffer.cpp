@@ -164,12 +164,30 @@ POLYLOC_INLINE void raise(const BeamPattern& beams, float along, float across, f
   }
 }
 
-}  // namespace
+/// As raise(), and takes the line of the edge where it is the nearest so far.
+POLYLOC_INLINE void raiseWithLine(const BeamPattern& beams, float along, float across,
+                                  float nearest, std::int32_t first, std::int32_t last,
+                                  const HitColumns& hits) {
+  const float* __restrict__ cosines = beams.cosines();
+  const float* __restrict__ sines = beams.sines();
+  float* __restrict__ inverse = hits.inverse;
+  float* __restrict__ hit_along = hits.along;
+  float* __restrict__ hit_across = hits.across;
+  for (std::int32_t i = first; i < last; ++i) {
+    const float value = std::min(along * cosines[i] + across * sines[i], nearest);
+    const bool is_nearer = value > inverse[i];
+    inverse[i] = is_nearer ? value : inverse[i];
+    hit_along[i] = is_nearer ? along : hit_along[i];
+    hit_across[i] = is_nearer ? across : hit_across[i];
+  }
+}
 
-POLYLOC_HOT_LOOP
-void raiseDepths(const BoundaryChains& chains, const Run* runs, std::size_t count,
-                 const ViewFrame& frame, const BeamPattern& beams, DepthWorkspace& w,
-                 float* inverse) {
+/// Calls raise_run(along, across, nearest, first, last) for each run of sorted beams that one of
+/// the edges covers.
+template <class RaiseRun>
+POLYLOC_INLINE void forEachRun(const BoundaryChains& chains, const Run* runs, std::size_t count,
+                               const ViewFrame& frame, const BeamPattern& beams, DepthWorkspace& w,
+                               RaiseRun raise_run) {
   const std::size_t vertices = gather(chains, runs, count, frame, w);
   takeBearings(vertices, frame, beams, w);
   const std::size_t edges = select(vertices, w);
@@ -181,12 +199,38 @@ void raiseDepths(const BoundaryChains& chains, const Run* runs, std::size_t coun
     const auto wraps = w.bearing[static_cast<std::size_t>(e.vertex[i])] >
                        w.bearing[static_cast<std::size_t>(e.vertex[i]) + 1];
     if (!wraps) {
-      raise(beams, along, across, nearest, from, to, inverse);
+      raise_run(along, across, nearest, from, to);
     } else {  // across the bearing pi
-      raise(beams, along, across, nearest, from, static_cast<std::int32_t>(beams.size()), inverse);
-      raise(beams, along, across, nearest, 0, to, inverse);
+      raise_run(along, across, nearest, from, static_cast<std::int32_t>(beams.size()));
+      raise_run(along, across, nearest, 0, to);
     }
   }
+}
+
+}  // namespace
+
+POLYLOC_HOT_LOOP
+void raiseDepths(const BoundaryChains& chains, const Run* runs, std::size_t count,
+                 const ViewFrame& frame, const BeamPattern& beams, DepthWorkspace& w,
+                 float* inverse) {
+  forEachRun(
+      chains, runs, count, frame, beams, w,
+      [&](float along, float across, float nearest, std::int32_t first, std::int32_t last)
+          __attribute__((always_inline)) {
+            raise(beams, along, across, nearest, first, last, inverse);
+          });
+}
+
+POLYLOC_HOT_LOOP
+void raiseDepths(const BoundaryChains& chains, const Run* runs, std::size_t count,
+                 const ViewFrame& frame, const BeamPattern& beams, DepthWorkspace& w,
+                 const HitColumns& hits) {
+  forEachRun(
+      chains, runs, count, frame, beams, w,
+      [&](float along, float across, float nearest, std::int32_t first, std::int32_t last)
+          __attribute__((always_inline)) {
+            raiseWithLine(beams, along, across, nearest, first, last, hits);
+          });
 }
 
 }  // namespace mrpt_polyloc

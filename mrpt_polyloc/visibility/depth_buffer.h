@@ -38,4 +38,17 @@ void raiseDepths(const BoundaryChains& chains, const BoundaryChains::Run* runs, 
                  const ViewFrame& frame, const BeamPattern& beams, DepthWorkspace& workspace,
                  float* inverse);
 
+/// Per sorted beam the inverse range of what it hits, and the coefficients of its line (see
+/// DepthWorkspace::Edges); as long as the pattern.
+struct HitColumns {
+  float* inverse;
+  float* along;
+  float* across;
+};
+
+/// As above, and keeps the line of the edge that each beam hits.
+void raiseDepths(const BoundaryChains& chains, const BoundaryChains::Run* runs, std::size_t count,
+                 const ViewFrame& frame, const BeamPattern& beams, DepthWorkspace& workspace,
+                 const HitColumns& hits);
+
 }  // namespace mrpt_polyloc

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -45,6 +46,11 @@ std::string toText(const TPoint2D& p) {
   std::ostringstream text;
   text << "(" << p.x << ", " << p.y << ")";
   return text.str();
+}
+
+std::string describe(const TracedEdge& e, const TracedEdge& f) {
+  return toText(e.a) + "-" + toText(e.b) + e.kind + " and " + toText(f.a) + "-" + toText(f.b) +
+         f.kind;
 }
 
 /// Whether a ring's interior holds a point that is not on its border.
@@ -95,33 +101,38 @@ double distance(const TPoint2D& p, const std::vector<TracedEdge>& edges) {
 
 FloodedBitmap floodComponents(OccupancyBitmap bitmap, std::size_t min_cells) {
   FloodedBitmap result;
-  std::set<std::pair<int, int>> seen;
+  std::vector<bool> seen(bitmap.cells.size(), false);
+  const auto index = [&bitmap](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(bitmap.width) +
+           static_cast<std::size_t>(x);
+  };
   OccupancyBitmap kept = bitmap;
   for (int row = 0; row < bitmap.height; ++row) {
     for (int column = 0; column < bitmap.width; ++column) {
-      if (bitmap.at(column, row) != CellState::free || seen.count({column, row}) != 0) continue;
-      std::vector<std::pair<int, int>> component{{column, row}};
-      seen.insert({column, row});
+      std::vector<std::pair<int, int>> component;
+      const auto reach = [&](int x, int y) {
+        if (bitmap.at(x, y) != CellState::free || seen[index(x, y)]) return;
+        seen[index(x, y)] = true;
+        component.emplace_back(x, y);
+      };
+      reach(column, row);
       for (std::size_t i = 0; i < component.size(); ++i) {
         const auto [x, y] = component[i];
-        for (const auto& [nx, ny] :
-             std::vector<std::pair<int, int>>{{x + 1, y}, {x - 1, y}, {x, y + 1}, {x, y - 1}}) {
-          if (bitmap.at(nx, ny) == CellState::free && seen.insert({nx, ny}).second) {
-            component.emplace_back(nx, ny);
-          }
-        }
+        reach(x + 1, y);
+        reach(x - 1, y);
+        reach(x, y + 1);
+        reach(x, y - 1);
       }
+      if (component.empty()) continue;
       if (component.size() >= min_cells) {
         ++result.component_count;
         result.free_cells += component.size();
         continue;
       }
-      for (const auto& [x, y] : component) {
-        kept.cells[static_cast<std::size_t>(y * bitmap.width + x)] = CellState::unknown;
-      }
+      for (const auto& [x, y] : component) kept.cells[index(x, y)] = CellState::unknown;
     }
   }
-  result.bitmap = kept;
+  result.bitmap = std::move(kept);
   return result;
 }
 
@@ -150,12 +161,57 @@ std::string findCrossing(const PolygonMap& map) {
   const std::vector<TracedEdge> edges = edgesOf(map);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t j = i + 1; j < edges.size(); ++j) {
-      if (!conflict(edges[i], edges[j])) continue;
-      return toText(edges[i].a) + "-" + toText(edges[i].b) + edges[i].kind + " and " +
-             toText(edges[j].a) + "-" + toText(edges[j].b) + edges[j].kind;
+      if (conflict(edges[i], edges[j])) return describe(edges[i], edges[j]);
     }
   }
   return "";
+}
+
+std::string findCrossingInSquares(const PolygonMap& map, double side) {
+  const std::vector<TracedEdge> edges = edgesOf(map);
+  std::map<std::pair<int, int>, std::vector<std::size_t>> squares;
+  const auto number = [side](double v) { return static_cast<int>(std::floor(v / side)); };
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto [left, right] = std::minmax({number(edges[i].a.x), number(edges[i].b.x)});
+    const auto [low, high] = std::minmax({number(edges[i].a.y), number(edges[i].b.y)});
+    for (int y = low; y <= high; ++y) {
+      for (int x = left; x <= right; ++x) squares[{x, y}].push_back(i);
+    }
+  }
+  for (const auto& [square, members] : squares) {
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      for (std::size_t j = i + 1; j < members.size(); ++j) {
+        const TracedEdge& e = edges[members[i]];
+        const TracedEdge& f = edges[members[j]];
+        if (conflict(e, f)) return describe(e, f);
+      }
+    }
+  }
+  return "";
+}
+
+std::vector<bool> freeCentres(const PolygonMap& map, int width, int height) {
+  std::vector<std::vector<double>> crossings(static_cast<std::size_t>(height));
+  for (const TracedEdge& edge : edgesOf(map)) {
+    if (edge.kind == 'b') continue;
+    const auto [low, high] = std::minmax({edge.a.y, edge.b.y});
+    for (int row = std::max(0, static_cast<int>(low) - 1); row < height && row <= high; ++row) {
+      const double y = row + 0.5;
+      if ((low <= y) == (high <= y)) continue;
+      crossings[static_cast<std::size_t>(row)].push_back(
+          edge.a.x + (edge.b.x - edge.a.x) * (y - edge.a.y) / (edge.b.y - edge.a.y));
+    }
+  }
+  std::vector<bool> free;
+  for (std::vector<double>& row : crossings) {
+    std::sort(row.begin(), row.end());
+    std::size_t passed = 0;
+    for (int column = 0; column < width; ++column) {
+      while (passed < row.size() && row[passed] < column + 0.5) ++passed;
+      free.push_back(passed % 2 == 1);
+    }
+  }
+  return free;
 }
 
 std::string findBadRing(const PolygonMap& map) {

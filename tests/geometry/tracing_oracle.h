@@ -37,12 +37,20 @@ struct SideCounts {
 };
 SideCounts countSides(const OccupancyBitmap& bitmap);
 
-/// Says which pair of edges crosses, overlaps or touches other than in a common end (all pairs are
-/// looked at); empty if none. For maps with integer coordinates: exact.
+/// Says which pair of edges crosses, overlaps or touches other than in a common end; empty if none.
+/// Exact for coordinates that are integers or halves. All pairs are looked at.
 std::string findCrossing(const PolygonMap& map);
+
+/// The same for large maps: looks at the pairs of edges whose boxes share a square of the given
+/// side.
+std::string findCrossingInSquares(const PolygonMap& map, double side);
 
 /// Says which ring has a vertex twice, fewer than three or no area, or lies outside its polygon;
 /// empty if none.
 std::string findBadRing(const PolygonMap& map);
+
+/// Which cell centres lie in the free space of a map traced from a bitmap of cells of 1 m at the
+/// origin, by scan lines; row by row.
+std::vector<bool> freeCentres(const PolygonMap& map, int width, int height);
 
 }  // namespace mrpt_polyloc::test

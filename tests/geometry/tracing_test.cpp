@@ -1,4 +1,5 @@
 #include "../support/bitmap_art.h"
+#include "../support/noisy_grid.h"
 #include "tracing_oracle.h"
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/geometry/tracing.h>
@@ -178,16 +179,31 @@ TEST(Tracing, CellsFarFromTheBorderKeepTheirState) {
   });
 }
 
-TEST(Tracing, TakesTheStaircaseOffASlantedWall) {
-  OccupancyBitmap bitmap = uniformBitmap(80, 60, CellState::occupied);
-  for (int row = 0; row < 60; ++row) {
-    for (int column = 0; column < 80; ++column) {
-      if (10 * row < 4 * column + 100) cellAt(bitmap, column, row) = CellState::free;
+/// Free below a slanted line, occupied above.
+OccupancyBitmap slantedWall(int size, double slope) {
+  OccupancyBitmap bitmap = uniformBitmap(size, size, CellState::occupied);
+  const double middle = 0.5 * size;
+  for (int row = 0; row < size; ++row) {
+    for (int column = 0; column < size; ++column) {
+      const bool below = row + 0.5 - middle < slope * (column + 0.5 - middle);
+      if (below) cellAt(bitmap, column, row) = CellState::free;
     }
   }
-  const PolygonMap map = traceBitmap(bitmap, simplified(1.0));
-  EXPECT_LE(map.vertexCount(), 6u);
-  EXPECT_GT(traceBitmap(bitmap, exact()).vertexCount(), 60u);
+  return bitmap;
+}
+
+TEST(Tracing, SlantedWallsBecomeStraightWithoutBias) {
+  for (const double slope : {0.01, 0.03, 0.1, 0.2, 0.37, 0.5, 0.61, 0.7, 0.83, 0.9, 1.0}) {
+    for (const double sign : {1.0, -1.0}) {
+      SCOPED_TRACE(sign * slope);
+      const OccupancyBitmap bitmap = slantedWall(200, sign * slope);
+      const PolygonMap map = traceBitmap(bitmap, simplified(1.0));
+      EXPECT_LE(map.vertexCount(), 4u + 3u);
+      const double wall_length = map.perimeter() - map.openPerimeter();
+      const double cells = static_cast<double>(floodComponents(bitmap, 1).free_cells);
+      EXPECT_LE(std::abs(map.area() - cells) / wall_length, 0.5);
+    }
+  }
 }
 
 TEST(Tracing, AxisParallelWallsStayExact) {
@@ -284,6 +300,18 @@ TEST(Tracing, PoseIsAppliedUnrounded) {
     EXPECT_NEAR(to[i].a.x, 1.2345 + x * std::cos(0.3) - y * std::sin(0.3), 1e-12);
     EXPECT_NEAR(to[i].a.y, -6.789 + x * std::sin(0.3) + y * std::cos(0.3), 1e-12);
     EXPECT_EQ(from[i].kind, to[i].kind);
+  }
+}
+
+TEST(Tracing, NoisyGridKeepsItsTopology) {
+  OccupancyBitmap bitmap = noisyGrid(500, 400, 5);
+  bitmap.resolution = 1.0;  // so that the checks are exact
+  for (const double tolerance : {0.5, 1.0, 2.0}) {
+    SCOPED_TRACE(tolerance);
+    const PolygonMap map = traceBitmap(bitmap, simplified(tolerance));
+    EXPECT_EQ(findBadRing(map), "");
+    EXPECT_EQ(findCrossingInSquares(map, 8.0), "");
+    EXPECT_EQ(map.holeCount(), traceBitmap(bitmap, exact()).holeCount());
   }
 }
 

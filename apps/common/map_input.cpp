@@ -1,0 +1,30 @@
+#include "map_input.h"
+
+#include <mrpt_polyloc/mrpt_bridge/map_files.h>
+
+#include <algorithm>
+
+namespace mrpt_polyloc::apps {
+
+const char* const kMapFormats =
+    "The map: .geojson, .wkt, HouseExpo .json, ROS .yaml, MRPT .gridmap[.gz] or .simplemap[.gz]";
+
+void warnOfRepairs(const Program& program, const std::string& path,
+                   const std::vector<Repair>& repairs) {
+  constexpr std::size_t kMostWarnings = 10;
+  const std::size_t shown = std::min(kMostWarnings, repairs.size());
+  for (std::size_t i = 0; i < shown; ++i) {
+    program.warn(path + ": " + toString(Defect{repairs[i].what, repairs[i].where}));
+  }
+  if (shown < repairs.size()) {
+    program.warn(path + ": and " + std::to_string(repairs.size() - shown) + " more repairs");
+  }
+}
+
+RepairedMap loadMapWithWarnings(const Program& program, const std::string& path) {
+  RepairedMap loaded = loadMap(path);
+  warnOfRepairs(program, path, loaded.repairs);
+  return loaded;
+}
+
+}  // namespace mrpt_polyloc::apps

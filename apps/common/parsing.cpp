@@ -1,0 +1,99 @@
+#include "parsing.h"
+
+#include "Cli.h"
+#include "angles.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace mrpt_polyloc::apps {
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+/// As many finite numbers, separated by commas, as `count` says; empty if it is not that.
+std::vector<double> parseNumbers(const std::string& text, std::size_t count) {
+  std::vector<double> numbers;
+  for (const std::string& part : split(text, ',')) {
+    const auto number = parseNumber(part);
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
+  return numbers.size() == count ? numbers : std::vector<double>{};
+}
+
+}  // namespace
+
+std::optional<double> parseNumber(const std::string& text) {
+  double number = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+std::optional<std::uint64_t> parseCount(const std::string& text) {
+  std::uint64_t count = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, count);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return count;
+}
+
+std::vector<RowRange> parseRows(const std::string& text) {
+  std::vector<RowRange> ranges;
+  for (const std::string& part : split(text, ',')) {
+    const std::vector<std::string> ends = split(part, '-');
+    const auto first = parseCount(ends.front());
+    const auto last = parseCount(ends.back());
+    if (ends.size() > 2 || !first || !last || *last < *first) {
+      throw UsageError("--rows: '" + part + "' is neither a row I nor a range J-K with J <= K");
+    }
+    ranges.push_back({*first, *last});
+  }
+  return ranges;
+}
+
+std::vector<std::size_t> selectRows(const std::vector<RowRange>& ranges, std::size_t count) {
+  std::vector<bool> selected(count, false);
+  for (const RowRange& range : ranges) {
+    for (std::size_t row = range.first; row < count && row <= range.last; ++row) {
+      selected[row] = true;
+    }
+  }
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < count; ++row) {
+    if (selected[row]) rows.push_back(row);
+  }
+  return rows;
+}
+
+PosePrior::Disk parseDisk(const std::string& text) {
+  const std::vector<double> numbers = parseNumbers(text, 3);
+  if (numbers.empty() || numbers[2] <= 0.0) {
+    throw UsageError("--near: '" + text + "' is not X,Y,R with a radius R above 0, in metres");
+  }
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+Tolerance parseTolerance(const std::string& text) {
+  const std::vector<double> numbers = parseNumbers(text, 2);
+  if (numbers.empty() || numbers[0] <= 0.0 || numbers[1] <= 0.0 || numbers[1] > 180.0) {
+    throw UsageError("--tolerance: '" + text +
+                     "' is not M,DEG with metres above 0 and degrees in (0, 180]");
+  }
+  return {numbers[0], toRadians(numbers[1])};
+}
+
+}  // namespace mrpt_polyloc::apps

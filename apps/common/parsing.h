@@ -1,0 +1,42 @@
+#pragma once
+
+#include <mrpt_polyloc/evaluation/Summary.h>
+#include <mrpt_polyloc/localization/LocalizationResult.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mrpt_polyloc::apps {
+
+/// The finite number a whole text is, if it is one. Decimal point whatever the locale.
+std::optional<double> parseNumber(const std::string& text);
+
+/// The decimal integer a whole text is, if it is one: digits only.
+std::optional<std::uint64_t> parseCount(const std::string& text);
+
+/// A row or an inclusive range of rows (0-based).
+struct RowRange {
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+};
+
+/// `I,J-K`: rows and inclusive ranges of rows, 0-based.
+/// \throws UsageError naming the part that is neither.
+std::vector<RowRange> parseRows(const std::string& text);
+
+/// The rows of [0, count) that the ranges name, ascending, each once; ranges are clipped at the
+/// end.
+std::vector<std::size_t> selectRows(const std::vector<RowRange>& ranges, std::size_t count);
+
+/// `X,Y,R`: the robot is within R > 0 of (X, Y) [m].
+/// \throws UsageError
+PosePrior::Disk parseDisk(const std::string& text);
+
+/// `M,DEG`: a tolerance, both positive, at most 180 degrees.
+/// \throws UsageError
+Tolerance parseTolerance(const std::string& text);
+
+}  // namespace mrpt_polyloc::apps

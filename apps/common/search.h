@@ -1,0 +1,48 @@
+#pragma once
+
+#include "Cli.h"
+#include <mrpt_polyloc/geometry/PolygonMap.h>
+#include <mrpt_polyloc/localization/GlobalLocalizer.h>
+#include <mrpt_polyloc/localization/LocalizationResult.h>
+#include <mrpt_polyloc/localization/RangeScan.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mrpt_polyloc::apps {
+
+/// What polyloc-localize and polyloc-eval ask for alike.
+struct SearchOptions {
+  std::string map;
+  std::string scans;
+  std::uint64_t max_hypotheses = 20;
+  /// Threads for the index, and for scans at once; 0 (not given): all cores for the index, and one
+  /// scan after the other, so that the times of a scan mean something.
+  std::uint64_t threads = 0;
+};
+
+/// Adds --map, --scans, --method (one of which is built, so it is only checked), --max-hypotheses
+/// and --threads.
+void addSearchOptions(CLI::App& options, SearchOptions& search);
+
+/// Prepares the search in a map.
+GlobalLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search);
+
+/// A scan and what was found for it.
+struct LocalizedScan {
+  std::size_t row = 0;  ///< index in the file
+  double stamp = 0.0;   ///< [s]
+  LocalizationResult result;
+  double ms = 0.0;  ///< wall time of this scan
+};
+
+/// Localizes the given rows, in that order, `search.threads` at a time. Results do not depend on
+/// the number of threads.
+std::vector<LocalizedScan> localizeScans(const GlobalLocalizer& localizer,
+                                         const std::vector<RangeScan>& scans,
+                                         const std::vector<std::size_t>& rows,
+                                         const PosePrior& prior, const SearchOptions& search);
+
+}  // namespace mrpt_polyloc::apps

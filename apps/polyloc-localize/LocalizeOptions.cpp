@@ -1,0 +1,89 @@
+#include "LocalizeOptions.h"
+
+#include "../common/angles.h"
+
+namespace mrpt_polyloc::apps {
+namespace {
+
+void addPriorOptions(CLI::App& cli, LocalizeOptions& options) {
+  CLI::Option* const compass =
+      addNumber(
+          cli, "--compass",
+          [&options](double degrees) {
+            options.prior.compass =
+                PosePrior::Compass{toRadians(degrees), toRadians(options.compass_tolerance_deg)};
+          },
+          {}, "Heading of the robot in the map")
+          ->type_name("DEG");
+  addNumber(
+      cli, "--compass-tolerance",
+      [&options](double degrees) {
+        options.compass_tolerance_deg = degrees;
+        if (options.prior.compass) options.prior.compass->tolerance = toRadians(degrees);
+      },
+      {0.0, 180.0}, "Greatest error of the compass [default: 10]")
+      ->type_name("DEG")
+      ->needs(compass);
+  cli.add_option_function<std::string>(
+         "--near", [&options](const std::string& text) { options.prior.near = parseDisk(text); },
+         "The robot is within R metres of (X, Y)")
+      ->type_name("X,Y,R");
+}
+
+void addScanOptions(CLI::App& cli, LocalizeOptions& options) {
+  cli.add_option_function<std::string>(
+         "--rows",
+         [&options](const std::string& text) {
+           options.rows = text;
+           options.ranges = parseRows(text);
+         },
+         "Only these scans: 0-based, ranges inclusive")
+      ->type_name("I,J-K");
+  addText(cli, "--sensor", options.file.sensor_label, "Only scans of the sensor of this label")
+      ->type_name("LABEL");
+  addNumber(
+      cli, "--laser-fov",
+      [&options](double degrees) { options.file.laser_fov = toRadians(degrees); },
+      {0.0, 360.0, true}, "Field of view of a CARMEN laser, where the log does not say it")
+      ->type_name("DEG");
+}
+
+/// Flags of the design whose method is not there yet: refused rather than ignored.
+void addPlannedOptions(CLI::App& cli) {
+  cli.add_option_function<std::string>(
+         "--index", [](const std::string&) { throw UsageError("--index is not built yet"); },
+         "Keep the search index in a file (not built yet)")
+      ->type_name("FILE");
+  cli.add_option_function<std::string>(
+         "--time-budget",
+         [](const std::string&) {
+           throw UsageError(
+               "the exhaustive search always finishes; --time-budget needs --method certified");
+         },
+         "Most time for a scan; needs --method certified (not built yet)")
+      ->type_name("MS");
+}
+
+void addOutputOptions(CLI::App& cli, LocalizeOptions& options) {
+  addText(cli, "--svg", options.svg,
+          "Draw the map, the last localized scan with its hypotheses, and the path of the best")
+      ->type_name("PIC.svg");
+  addText(cli, "--pf-ini", options.pf_ini,
+          "Write where MRPT's pf-localization shall start its particles: a box around the first "
+          "hypothesis of the first localized scan")
+      ->type_name("OUT.ini");
+  addText(cli, "-o", options.output, "Write the CSV there [default: standard output]")
+      ->type_name("OUT.csv");
+}
+
+}  // namespace
+
+void addOptions(CLI::App& cli, LocalizeOptions& options) {
+  addSearchOptions(cli, options.search);
+  addPriorOptions(cli, options);
+  addScanOptions(cli, options);
+  addPlannedOptions(cli);
+  addOutputOptions(cli, options);
+}
+
+}  // namespace mrpt_polyloc::apps

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "../common/parsing.h"
+#include "../common/search.h"
+#include <mrpt_polyloc/localization/LocalizationResult.h>
+#include <mrpt_polyloc/mrpt_bridge/scan_files.h>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace mrpt_polyloc::apps {
+
+/// The command line of polyloc-localize.
+struct LocalizeOptions {
+  SearchOptions search;
+  PosePrior prior;
+  double compass_tolerance_deg = 10.0;  ///< what a compass indoors is good for
+  ScanFileOptions file;
+  std::string rows;  ///< --rows as given, for messages
+  std::vector<RowRange> ranges = {{0, std::numeric_limits<std::uint64_t>::max()}};
+  std::string svg, pf_ini, output;  ///< paths; empty: not asked for
+};
+
+/// Adds all options of polyloc-localize to a command line.
+void addOptions(CLI::App& cli, LocalizeOptions& options);
+
+}  // namespace mrpt_polyloc::apps

@@ -1,0 +1,40 @@
+#include "hypothesis_csv.h"
+
+#include "../common/angles.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace mrpt_polyloc::apps {
+namespace {
+
+std::string poseColumns(const Hypothesis& hypothesis) {
+  const auto& pose = hypothesis.pose_map_robot;
+  const auto deviation = [&](int i) { return std::sqrt(hypothesis.covariance(i, i)); };
+  char text[240];
+  std::snprintf(text, sizeof text, "%.4f,%.4f,%.3f,%.6g,%.5f,%.4f,%.4f,%.3f", pose.x, pose.y,
+                toDegrees(pose.phi), hypothesis.weight, hypothesis.cost, deviation(0), deviation(1),
+                toDegrees(deviation(2)));
+  return text;
+}
+
+}  // namespace
+
+std::string hypothesisCsv(const std::vector<LocalizedScan>& scans) {
+  std::string csv = "row,stamp,status,rank,x,y,phi_deg,weight,cost,std_x,std_y,std_phi_deg,ms\n";
+  for (const LocalizedScan& scan : scans) {
+    char stamp[40], ms[40];
+    std::snprintf(stamp, sizeof stamp, "%.6f", scan.stamp);
+    std::snprintf(ms, sizeof ms, "%.3f", scan.ms);
+    const std::string head =
+        std::to_string(scan.row) + "," + stamp + "," + toString(scan.result.status) + ",";
+    const std::vector<Hypothesis>& hypotheses = scan.result.hypotheses;
+    if (hypotheses.empty()) csv += head + "0,,,,,,,,," + ms + "\n";
+    for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+      csv += head + std::to_string(i + 1) + "," + poseColumns(hypotheses[i]) + "," + ms + "\n";
+    }
+  }
+  return csv;
+}
+
+}  // namespace mrpt_polyloc::apps

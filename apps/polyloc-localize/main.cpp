@@ -1,0 +1,71 @@
+// polyloc-localize: where were these scans taken? See README.md beside this file.
+
+#include "../common/Cli.h"
+#include "../common/OutputFiles.h"
+#include "../common/map_input.h"
+#include "../common/search.h"
+#include "LocalizeOptions.h"
+#include "hypothesis_csv.h"
+#include "particle_filter_ini.h"
+#include "scan_picture.h"
+#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/mrpt_bridge/scan_files.h>
+
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace mrpt_polyloc;
+using namespace mrpt_polyloc::apps;
+
+std::vector<std::size_t> chosenRows(const LocalizeOptions& options, std::size_t count) {
+  const std::vector<std::size_t> rows = selectRows(options.ranges, count);
+  if (rows.empty()) {
+    throw FormatError(options.search.scans, "--rows " + options.rows,
+                      "no such row; the file holds the rows 0 to " + std::to_string(count - 1));
+  }
+  return rows;
+}
+
+/// Lines for the particle filter, from the first scan that could be localized.
+std::string iniText(const LocalizeOptions& options, const std::vector<LocalizedScan>& localized) {
+  for (const LocalizedScan& scan : localized) {
+    const auto& hypotheses = scan.result.hypotheses;
+    if (!hypotheses.empty()) return particleFilterIni(hypotheses.front());
+  }
+  throw FormatError(options.pf_ini, "", "not written: no scan could be localized");
+}
+
+int localize(const Program& program, const LocalizeOptions& options) {
+  for (const std::string& path : {options.output, options.svg, options.pf_ini}) {
+    requireWritable(path);
+  }
+  RepairedMap loaded = loadMapWithWarnings(program, options.search.map);
+  const std::vector<RangeScan> scans = loadScans(options.search.scans, options.file);
+  const std::vector<std::size_t> rows = chosenRows(options, scans.size());
+  const GlobalLocalizer localizer = makeLocalizer(std::move(loaded.map), options.search);
+  const std::vector<LocalizedScan> localized =
+      localizeScans(localizer, scans, rows, options.prior, options.search);
+
+  OutputFiles files;
+  const std::string csv = hypothesisCsv(localized);
+  if (!options.output.empty()) files.add(options.output, csv);
+  if (!options.svg.empty()) files.add(options.svg, scanPicture(localizer.map(), scans, localized));
+  if (!options.pf_ini.empty()) files.add(options.pf_ini, iniText(options, localized));
+  files.commit();
+  if (options.output.empty()) std::cout << csv;
+  return kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("polyloc-localize",
+                  "Finds every pose in a map that explains a 2D laser scan.\n"
+                  "CSV, one row per hypothesis: the pose of the robot in the map, m and deg.");
+  LocalizeOptions options;
+  addOptions(program.options(), options);
+  return program.run(argc, argv, [&] { return localize(program, options); });
+}

@@ -1,0 +1,108 @@
+// polyloc-map: convert, check and draw a map. See README.md beside this file.
+
+#include "../common/Cli.h"
+#include "../common/OutputFiles.h"
+#include "../common/map_input.h"
+#include "../common/map_picture.h"
+#include "map_report.h"
+#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/geometry/polygon_files.h>
+
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace mrpt_polyloc;
+using namespace mrpt_polyloc::apps;
+
+struct Options {
+  std::string input;
+  std::string output;
+  std::string svg;
+  bool check = false;
+  bool json = false;
+};
+
+void addOptions(CLI::App& cli, Options& options) {
+  addText(cli, "INPUT", options.input, kMapFormats)->required()->type_name("");
+  addText(cli, "-o", options.output, "Write the map as .geojson, or .wkt if it has no open edges")
+      ->type_name("OUT");
+  addText(cli, "--svg", options.svg, "Draw the map")->type_name("PIC.svg");
+  cli.add_flag("--check", options.check,
+               "List the defects of the map; exit 1 if there is any, repaired or not");
+  cli.add_flag_callback(
+      "--cells", [] { throw UsageError("--cells is not built yet"); },
+      "Statistics of the visibility cells (not built yet)");
+  cli.add_flag("--json", options.json, "Print the report as JSON");
+}
+
+std::string extensionOf(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension != ".geojson" && extension != ".wkt") {
+    throw FormatError(
+        path, "", "unknown extension '" + extension + "': maps are written as .geojson or .wkt");
+  }
+  return extension;
+}
+
+/// The map as text, where the format can hold it.
+std::string outputText(const std::string& path, const PolygonMap& map) {
+  try {
+    return toText(map, extensionOf(path));
+  } catch (const InvalidMapError& error) {
+    throw FormatError(path, "", error.what());
+  }
+}
+
+void writeOutputs(const Options& options, const PolygonMap& map) {
+  OutputFiles files;
+  if (!options.output.empty()) files.add(options.output, outputText(options.output, map));
+  if (!options.svg.empty()) {
+    SvgCanvas canvas(map.boundingBox());
+    drawMap(canvas, map);
+    files.add(options.svg, canvas.text());
+  }
+  files.commit();
+}
+
+void report(const Options& options, const RepairedMap& loaded) {
+  if (options.json) {
+    std::cout << jsonReport(loaded).dump(2) << '\n';
+  } else {
+    std::cout << (options.check ? defectList(loaded.defects) : "") << textReport(loaded.map);
+  }
+}
+
+/// Loads the map; one that has no valid form is reported before it is refused.
+RepairedMap load(const Program& program, const Options& options) {
+  try {
+    return loadMapWithWarnings(program, options.input);
+  } catch (const InvalidMapError&) {
+    const std::vector<Defect> defects = defectsOfFile(options.input);
+    if (options.json) std::cout << jsonReport(defects).dump(2) << '\n';
+    if (options.check && !options.json) std::cout << defectList(defects);
+    throw;
+  }
+}
+
+int convert(const Program& program, const Options& options) {
+  if (!options.output.empty()) extensionOf(options.output);  // before the work, not after it
+  requireWritable(options.output);
+  requireWritable(options.svg);
+  const RepairedMap loaded = load(program, options);
+  writeOutputs(options, loaded.map);
+  report(options, loaded);
+  return options.check && !loaded.defects.empty() ? kFailed : kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("polyloc-map", "Converts, checks and draws a polygon map.");
+  Options options;
+  addOptions(program.options(), options);
+  return program.run(argc, argv, [&] { return convert(program, options); });
+}

@@ -1,0 +1,8 @@
+# POLYLOC_SANITIZE=address,undefined or =thread: the whole build under g++'s sanitizers (presets
+# asan and tsan). The first finding ends the program, so that a test cannot pass over it.
+set(POLYLOC_SANITIZE "" CACHE STRING "Sanitizers to build with: address,undefined or thread; empty: none")
+if(POLYLOC_SANITIZE)
+  add_compile_options("-fsanitize=${POLYLOC_SANITIZE}" -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
+  add_link_options("-fsanitize=${POLYLOC_SANITIZE}")
+endif()

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# install-debian-packages.sh [tests]: installs what building mrpt_polyloc needs on Debian 12, with
+# `tests` also what its tests and benchmarks need. Does nothing, and needs no rights, where all of
+# it is there.
+set -euo pipefail
+
+# Only the parts of MRPT that are linked: libmrpt-dev would bring 500 packages more. mrpt-common
+# holds the data of MRPT's demos.
+packages=(
+  build-essential cmake ninja-build ccache pkg-config
+  libmrpt-maps-dev libmrpt-obs-dev libmrpt-img-dev libmrpt-io-dev mrpt-common
+  libcgal-dev libgmp-dev libmpfr-dev libboost-dev libeigen3-dev
+  nlohmann-json3-dev libcli11-dev libtbb-dev libfftw3-dev zlib1g-dev
+)
+case "${1-}" in
+  "") ;;
+  tests) packages+=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14) ;;
+  *)
+    echo "usage: install-debian-packages.sh [tests]" >&2
+    exit 2
+    ;;
+esac
+
+if ! command -v apt-get > /dev/null; then
+  echo "$0: no apt-get here; install the equivalents of: ${packages[*]}" >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2> /dev/null || true)
+  [ "$status" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+if [ "$(id -u)" -eq 0 ]; then
+  as_root=(env)
+elif command -v sudo > /dev/null; then
+  as_root=(sudo env)
+else
+  echo "$0: missing packages, and neither root nor sudo to install them: ${missing[*]}" >&2
+  exit 1
+fi
+apt_get=("${as_root[@]}" DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=600)
+echo "installing ${missing[*]}"
+"${apt_get[@]}" update
+"${apt_get[@]}" install --no-install-recommends "${missing[@]}"

@@ -1,0 +1,211 @@
+#include <mrpt_polyloc/evaluation/Simulator.h>
+#include <mrpt_polyloc/geometry/Triangulation.h>
+#include <mrpt_polyloc/geometry/errors.h>
+
+#include <mrpt/core/Clock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+namespace mrpt_polyloc {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180.0;
+
+/// Random numbers from mt19937_64, which the standard fixes, through transformations of our own,
+/// which it leaves to the library.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+  /// Uniform in [0, 1).
+  double unit() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
+  double uniform(double low, double high) { return low + (high - low) * unit(); }
+  /// Standard normal, by Box and Muller; two draws each time, so that streams stay aligned.
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log1p(-unit()));
+    return radius * std::cos(2.0 * kPi * unit());
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Uniform over the free space, by area.
+class FreeSpaceSampler {
+ public:
+  explicit FreeSpaceSampler(const PolygonMap& map) : triangulation_(map) {
+    double area = 0.0;
+    for (std::size_t i = 0; i < triangulation_.faces().size(); ++i) {
+      if (!triangulation_.faces()[i].is_free) continue;
+      const auto [a, b, c] = corners(i);
+      area += 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+      faces_.push_back(i);
+      area_until_.push_back(area);
+    }
+    if (faces_.empty()) throw InvalidMapError("the map has no free space");
+  }
+
+  TPoint2D draw(Random& random) const {
+    const double at = random.uniform(0.0, area_until_.back());
+    const auto found = std::upper_bound(area_until_.begin(), area_until_.end(), at);
+    const std::size_t index =
+        std::min(static_cast<std::size_t>(found - area_until_.begin()), faces_.size() - 1);
+    const auto [a, b, c] = corners(faces_[index]);
+    double u = random.unit(), v = random.unit();
+    if (u + v > 1.0) {  // the other half of the parallelogram, folded back
+      u = 1.0 - u;
+      v = 1.0 - v;
+    }
+    return a + (b - a) * u + (c - a) * v;
+  }
+
+ private:
+  struct Corners {
+    TPoint2D a, b, c;
+  };
+  Corners corners(std::size_t face) const {
+    const auto& vertex = triangulation_.faces()[face].vertex;
+    const auto at = [&](std::size_t i) {
+      return triangulation_.vertices()[static_cast<std::size_t>(vertex[i])];
+    };
+    return {at(0), at(1), at(2)};
+  }
+
+  Triangulation triangulation_;
+  std::vector<std::size_t> faces_;
+  std::vector<double> area_until_;  ///< of the free faces up to and with this one [m2]
+};
+
+TPoint2D drawPlace(const FreeSpaceSampler& sampler, const WallSegments& walls, double clearance,
+                   Random& random) {
+  constexpr int kTries = 20'000;  // a place that takes 1/2000 of the free space is found
+  for (int i = 0; i < kTries; ++i) {
+    const TPoint2D place = sampler.draw(random);
+    if (walls.distance(place) >= clearance) return place;
+  }
+  throw InvalidMapError("no place found in the free space that is " + std::to_string(clearance) +
+                        " m from all walls");
+}
+
+bool isFullCircle(double fov) {
+  return fov > 2.0 * kPi - 1e-9;
+}
+
+/// MRPT's aperture: the angle between the first and the last beam.
+double apertureOf(const SimulatorParams& params) {
+  const double beams = static_cast<double>(params.beams);
+  return isFullCircle(params.fov) ? params.fov * (beams - 1.0) / beams : params.fov;
+}
+
+std::vector<double> bearingsOf(const SimulatorParams& params) {
+  const double aperture = apertureOf(params);
+  std::vector<double> bearings(params.beams, 0.0);
+  if (params.beams == 1) return bearings;
+  const double step = aperture / static_cast<double>(params.beams - 1);
+  for (std::size_t i = 0; i < params.beams; ++i) {
+    bearings[i] = -0.5 * aperture + step * static_cast<double>(i);
+  }
+  return bearings;
+}
+
+/// Puts objects in front of what the beams see.
+void occlude(std::vector<double>& ranges, const SimulatorParams& params, Random& random) {
+  const std::vector<double> bearings = bearingsOf(params);
+  const std::vector<double> clear = ranges;
+  for (std::size_t k = 0; k < params.occluders; ++k) {
+    const double half_width = 0.5 * random.uniform(8.0, 19.0) * kDegree;
+    const double middle = random.uniform(-0.5, 0.5) * params.fov;
+    const double fraction = random.uniform(0.2, 0.9);
+    const auto apart = [&](std::size_t i) {
+      return std::abs(std::remainder(bearings[i] - middle, 2.0 * kPi));
+    };
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < bearings.size(); ++i) {
+      if (apart(i) < apart(nearest)) nearest = i;
+    }
+    const double object = fraction * std::min(clear[nearest], params.max_range);
+    for (std::size_t i = 0; i < bearings.size(); ++i) {
+      if (apart(i) <= half_width) ranges[i] = std::min(ranges[i], object);
+    }
+  }
+}
+
+/// What the sensor makes of true ranges.
+void fillRanges(mrpt::obs::CObservation2DRangeScan& observation, const std::vector<double>& ranges,
+                const SimulatorParams& params, Random& random) {
+  constexpr double kLeastRange = 0.001;  // noise must not make a range 0, which means "invalid"
+  observation.resizeScan(ranges.size());
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    // Every beam draws the same number of times, so that options do not shift each other's draws.
+    const double noise = params.sigma * random.normal();
+    const bool is_short = random.unit() < params.short_beams;
+    const double fraction = random.unit();
+    const bool is_lost = random.unit() < params.dropout;
+    double range = ranges[i];
+    if (is_short) range = fraction * std::min(range, params.max_range);
+    const bool is_hit = !is_lost && range + noise < params.max_range;
+    const double read = is_hit ? std::max(range + noise, kLeastRange) : params.max_range;
+    observation.setScanRange(i, static_cast<float>(read));
+    observation.setScanRangeValidity(i, is_hit);
+  }
+}
+
+mrpt::obs::CObservation2DRangeScan emptyObservation(const SimulatorParams& params, double stamp) {
+  mrpt::obs::CObservation2DRangeScan observation;
+  observation.sensorLabel = "LASER";
+  observation.timestamp = mrpt::Clock::fromDouble(stamp);
+  observation.aperture = static_cast<float>(apertureOf(params));
+  observation.rightToLeft = true;
+  observation.maxRange = static_cast<float>(params.max_range);
+  observation.stdError = static_cast<float>(params.sigma);
+  return observation;
+}
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw InvalidParamsError("SimulatorParams: " + message);
+}
+
+}  // namespace
+
+void SimulatorParams::check() const {
+  const auto is_share = [](double x) { return x >= 0.0 && x <= 1.0; };
+  require(beams >= 1, "beams must be at least 1");
+  require(fov > 0.0 && fov <= 2.0 * kPi + 1e-9, "fov must be in (0, 2 pi]");
+  require(std::isfinite(sigma) && sigma >= 0.0, "sigma must be finite and not negative");
+  require(std::isfinite(max_range) && max_range > 0.0, "max_range must be finite and positive");
+  require(is_share(dropout), "dropout must be in [0, 1]");
+  require(is_share(short_beams), "short_beams must be in [0, 1]");
+  require(std::isfinite(clearance) && clearance >= 0.0,
+          "clearance must be finite and not negative");
+}
+
+std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorParams& params,
+                                         std::size_t count, std::uint64_t seed) {
+  params.check();
+  constexpr double kFirstStamp = 1e9;
+  const WallSegments walls(map);
+  const FreeSpaceSampler sampler(map);
+  const std::vector<double> bearings = bearingsOf(params);
+  Random poses(seed);
+  Random noise(seed ^ 0x9e3779b97f4a7c15ULL);  // a stream of its own, see the header
+
+  std::vector<SimulatedScan> scans;
+  for (std::size_t row = 0; row < count; ++row) {
+    const TPoint2D place = drawPlace(sampler, walls, params.clearance, poses);
+    const double heading = poses.uniform(-kPi, kPi);
+    std::vector<double> ranges;
+    for (const double bearing : bearings) ranges.push_back(walls.range(place, heading + bearing));
+    occlude(ranges, params, noise);
+
+    const double stamp = kFirstStamp + static_cast<double>(row);
+    scans.push_back({{stamp, {place.x, place.y, heading}}, emptyObservation(params, stamp)});
+    fillRanges(scans.back().observation, ranges, params, noise);
+  }
+  return scans;
+}
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,72 @@
+#include <mrpt_polyloc/evaluation/WallSegments.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mrpt_polyloc {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double cross(const TPoint2D& u, const TPoint2D& v) {
+  return u.x * v.y - u.y * v.x;
+}
+double dot(const TPoint2D& u, const TPoint2D& v) {
+  return u.x * v.x + u.y * v.y;
+}
+
+/// Range along the unit vector `ray` to the segment from a to b, both relative to the origin.
+double rangeTo(const TPoint2D& a, const TPoint2D& b, const TPoint2D& ray) {
+  const double side_a = cross(ray, a), side_b = cross(ray, b);
+  if ((side_a > 0.0 && side_b > 0.0) || (side_a < 0.0 && side_b < 0.0)) return kInfinity;
+  double range = kInfinity;
+  if (side_a == 0.0 && side_b == 0.0) {  // along the ray: its nearest point ahead
+    const double at_a = dot(ray, a), at_b = dot(ray, b);
+    if (at_a >= 0.0 && at_b >= 0.0) {
+      range = std::min(at_a, at_b);
+    } else if (at_a >= 0.0 || at_b >= 0.0) {
+      range = 0.0;  // the origin lies on it
+    }
+  } else {
+    const double t = side_a / (side_a - side_b);
+    range = dot(ray, a) + t * (dot(ray, b) - dot(ray, a));
+  }
+  return range >= 0.0 ? range : kInfinity;
+}
+
+}  // namespace
+
+WallSegments::WallSegments(const PolygonMap& map) {
+  for (const Ring* ring : map.rings()) {
+    for (std::size_t i = 0; i < ring->size(); ++i) {
+      if (ring->kinds[i] == EdgeKind::open) continue;
+      segments_.push_back({ring->vertices[i], ring->vertices[(i + 1) % ring->size()]});
+    }
+  }
+  for (const Polyline& wall : map.wallsBeyond()) {
+    for (std::size_t i = 1; i < wall.size(); ++i) segments_.push_back({wall[i - 1], wall[i]});
+  }
+}
+
+double WallSegments::range(const TPoint2D& origin, double direction) const {
+  const TPoint2D ray{std::cos(direction), std::sin(direction)};
+  double nearest = kInfinity;
+  for (const Segment& segment : segments_) {
+    nearest = std::min(nearest, rangeTo(segment.a - origin, segment.b - origin, ray));
+  }
+  return nearest;
+}
+
+double WallSegments::distance(const TPoint2D& point) const {
+  double nearest = kInfinity;
+  for (const Segment& segment : segments_) {
+    const TPoint2D edge = segment.b - segment.a, offset = point - segment.a;
+    const double length2 = dot(edge, edge);
+    const double t = length2 > 0.0 ? std::clamp(dot(edge, offset) / length2, 0.0, 1.0) : 0.0;
+    nearest = std::min(nearest, std::hypot(offset.x - t * edge.x, offset.y - t * edge.y));
+  }
+  return nearest;
+}
+
+}  // namespace mrpt_polyloc

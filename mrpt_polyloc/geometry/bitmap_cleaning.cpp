@@ -1,0 +1,97 @@
+#include <mrpt_polyloc/geometry/bitmap_cleaning.h>
+#include <mrpt_polyloc/geometry/params_check.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+namespace mrpt_polyloc {
+namespace {
+
+/// A cell relative to another one.
+struct Offset {
+  int x, y;
+};
+
+int countAround(const OccupancyBitmap& bitmap, int column, int row, CellState state) {
+  int count = 0;
+  for (int y = row - 1; y <= row + 1; ++y) {
+    for (int x = column - 1; x <= column + 1; ++x) {
+      count += (x != column || y != row) && bitmap.at(x, y) == state;
+    }
+  }
+  return count;
+}
+
+/// Whether two cells lie on opposite sides of the origin: seen from it, at least 153 degrees
+/// (tangent of the rest at most 1/2) apart.
+bool areOpposite(const Offset& a, const Offset& b) {
+  const int dot = a.x * b.x + a.y * b.y;
+  const int cross = a.x * b.y - a.y * b.x;
+  return dot < 0 && 2 * std::abs(cross) <= -dot;
+}
+
+/// Whether a cell lies between two occupied ones at most `gap` cells apart.
+bool bridgesGap(const OccupancyBitmap& bitmap, int column, int row, int gap) {
+  std::vector<Offset> occupied;
+  for (int y = 1 - gap; y < gap; ++y) {
+    for (int x = 1 - gap; x < gap; ++x) {
+      if (bitmap.at(column + x, row + y) == CellState::occupied) occupied.push_back({x, y});
+    }
+  }
+  for (std::size_t i = 1; i < occupied.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const Offset &a = occupied[i], &b = occupied[k];
+      const int dx = a.x - b.x, dy = a.y - b.y;
+      if (dx * dx + dy * dy <= gap * gap && areOpposite(a, b)) return true;
+    }
+  }
+  return false;
+}
+
+/// Gives every unknown cell with a free neighbour for which the test holds a new state.
+template <class Test>
+void changeRim(OccupancyBitmap& bitmap, CellState state, Test&& test) {
+  std::vector<std::size_t> changed;
+  for (int row = 0; row < bitmap.height; ++row) {
+    for (int column = 0; column < bitmap.width; ++column) {
+      if (bitmap.at(column, row) != CellState::unknown) continue;
+      const int free_neighbours = countAround(bitmap, column, row, CellState::free);
+      if (free_neighbours > 0 && test(column, row, free_neighbours)) {
+        changed.push_back(static_cast<std::size_t>(row) * static_cast<std::size_t>(bitmap.width) +
+                          static_cast<std::size_t>(column));
+      }
+    }
+  }
+  for (const std::size_t cell : changed) bitmap.cells[cell] = state;
+}
+
+}  // namespace
+
+void BitmapCleaningParams::check() const {
+  requireInRange("max_wall_gap", max_wall_gap, 0.0, 10.0);
+  requireInRange("ragged_passes", ragged_passes, 0.0, 100.0);
+}
+
+OccupancyBitmap cleanBitmap(OccupancyBitmap bitmap, const BitmapCleaningParams& params) {
+  params.check();
+  if (!(bitmap.resolution > 0.0)) return bitmap;  // tracing will say so
+  constexpr int kWidestGap = 64;                  // in cells: bounds the work on fine grids
+  constexpr double kRounding = 1e-9;              // 0.3 m are 6 cells of 0.05 m
+  const int gap = static_cast<int>(std::min(params.max_wall_gap / bitmap.resolution + kRounding,
+                                            static_cast<double>(kWidestGap)));
+  if (gap > 1) {
+    const OccupancyBitmap before = bitmap;
+    changeRim(bitmap, CellState::occupied,
+              [&](int column, int row, int) { return bridgesGap(before, column, row, gap); });
+  }
+  constexpr int kMostNeighbours = 5;
+  for (int pass = 0; pass < params.ragged_passes; ++pass) {
+    changeRim(bitmap, CellState::free,
+              [](int, int, int free_neighbours) { return free_neighbours >= kMostNeighbours; });
+  }
+  return bitmap;
+}
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <mrpt_polyloc/geometry/validation.h>
+
+#include <string>
+
+namespace mrpt_polyloc {
+
+/// How far a vertex of an open line may be from the ring vertex it stands for [m].
+constexpr double kOpenLineSnap = 1e-6;
+
+/// Reads the project's own map file: a GeoJSON FeatureCollection in local metres. The property
+/// `kind` of a feature says what it is: `free` (Polygon or MultiPolygon: free space), `open`
+/// (LineString or MultiLineString: those edges of free space that are open, each vertex a ring
+/// vertex, snapped within kOpenLineSnap) or `wall` (LineString or MultiLineString: walls beyond).
+/// Features in any order; other properties are ignored.
+/// \param text what the file holds
+/// \param file its name, for messages
+/// \throws FormatError naming the file and the line, or the path of what is wrong, such as
+/// `features[2].geometry.coordinates[0][3]`.
+RawMap parseGeoJson(const std::string& text, const std::string& file);
+
+/// The map as such a file: free space as a MultiPolygon; if there are any, open edges as a
+/// MultiLineString of runs as long as can be, and walls beyond as a MultiLineString. Reads back as
+/// exactly the same map.
+std::string toGeoJson(const PolygonMap& map);
+
+}  // namespace mrpt_polyloc

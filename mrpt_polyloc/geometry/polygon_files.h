@@ -1,0 +1,25 @@
+#pragma once
+
+#include <mrpt_polyloc/geometry/validation.h>
+
+#include <string>
+
+namespace mrpt_polyloc {
+
+/// Reads a polygon map file by its extension, in any case: .geojson (the project's own), .wkt, or
+/// .json (HouseExpo, or a GeoJSON FeatureCollection after all).
+/// \throws FormatError naming the file, and the place in it: missing, empty, a directory, of an
+/// unknown extension, or not what its extension says.
+RawMap readRawMap(const std::string& path);
+
+/// Reads a polygon map file, checks and repairs it.
+/// \throws FormatError as readRawMap().
+/// \throws InvalidMapError naming the file and the defects that could not be repaired.
+RepairedMap loadPolygonMap(const std::string& path);
+
+/// The text of a map file with an extension, ".geojson" or ".wkt" in any case.
+/// \throws FormatError for another extension.
+/// \throws InvalidMapError if such a file cannot hold the map (see toWkt()).
+std::string toText(const PolygonMap& map, const std::string& extension);
+
+}  // namespace mrpt_polyloc

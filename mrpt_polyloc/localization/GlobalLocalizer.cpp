@@ -1,0 +1,132 @@
+#include <mrpt_polyloc/geometry/Triangulation.h>
+#include <mrpt_polyloc/geometry/params_check.h>
+#include <mrpt_polyloc/localization/GlobalLocalizer.h>
+#include <mrpt_polyloc/localization/ScanCost.h>
+#include <mrpt_polyloc/localization/SignaturePyramid.h>
+#include <mrpt_polyloc/localization/search_positions.h>
+#include <mrpt_polyloc/visibility/RangePredictor.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace mrpt_polyloc {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+void GlobalLocalizerParams::check() const {
+  requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e6);
+  requireInRange("threads", threads, 0.0, 1024.0);
+  requireInRange("spacing", spacing, 0.01, 10.0);
+  cost.check();
+  signature.check();
+  search.check();
+  refinement.check();
+  hypotheses.check();
+}
+
+struct GlobalLocalizer::Impl {
+  Impl(PolygonMap polygon_map, const GlobalLocalizerParams& parameters)
+      : params(parameters),
+        map(std::move(polygon_map)),
+        triangulation(map),
+        predictor(triangulation, RangePredictor::kCellSize, params.threads),
+        pyramid(predictor, searchPositions(triangulation, params.spacing), triangulation.box().min,
+                params.spacing, params.threads),
+        build_seconds(watch.seconds()) {}
+
+  /// Candidates refined with some of the beams, the best of them with all; sorted by cost.
+  std::vector<RankedPose> refine(const std::vector<PoseCandidate>& candidates,
+                                 const RangeScan& scan, const ScanCost& cost) const;
+
+  Stopwatch watch;
+  GlobalLocalizerParams params;
+  PolygonMap map;
+  Triangulation triangulation;
+  RangePredictor predictor;
+  SignaturePyramid pyramid;
+  double build_seconds;
+};
+
+std::vector<RankedPose> GlobalLocalizer::Impl::refine(const std::vector<PoseCandidate>& candidates,
+                                                      const RangeScan& scan,
+                                                      const ScanCost& cost) const {
+  // Enough beams to come near the optimum; all of them only where it may matter.
+  constexpr std::size_t kCoarseBeams = 90;
+  const PoseRefiner coarse(predictor, scan, params.refinement, kCoarseBeams);
+  const PoseRefiner fine(predictor, scan, params.refinement);
+  std::vector<RankedPose> poses;
+  poses.reserve(candidates.size());
+  for (const PoseCandidate& candidate : candidates) {
+    const RefinedPose refined = coarse.refine(candidate.pose_map_beams);
+    poses.push_back({refined, cost.mean(refined.pose_map_beams)});
+  }
+  poses = mergeNearPoses(std::move(poses), params.hypotheses);
+  if (poses.size() > 2 * params.max_hypotheses) poses.resize(2 * params.max_hypotheses);
+  for (RankedPose& pose : poses) {
+    const RefinedPose refined = fine.refine(pose.refined.pose_map_beams);
+    const double refined_cost = cost.mean(refined.pose_map_beams);
+    if (refined_cost < pose.cost) pose = {refined, refined_cost};
+  }
+  poses = mergeNearPoses(std::move(poses), params.hypotheses);
+  if (poses.size() > params.max_hypotheses) poses.resize(params.max_hypotheses);
+  return poses;
+}
+
+GlobalLocalizer::GlobalLocalizer(PolygonMap map, GlobalLocalizerParams params) {
+  params.check();
+  impl_ = std::make_unique<Impl>(std::move(map), params);
+}
+GlobalLocalizer::~GlobalLocalizer() = default;
+GlobalLocalizer::GlobalLocalizer(GlobalLocalizer&&) noexcept = default;
+
+const PolygonMap& GlobalLocalizer::map() const {
+  return impl_->map;
+}
+std::size_t GlobalLocalizer::indexBytes() const {
+  return impl_->pyramid.bytes() + impl_->predictor.index().bytes();
+}
+double GlobalLocalizer::indexBuildSeconds() const {
+  return impl_->build_seconds;
+}
+
+LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePrior& prior) const {
+  const GlobalLocalizerParams& params = impl_->params;
+  LocalizationResult result;
+  result.statistics.positions = impl_->pyramid.blocks(0).size();
+  if (scan.hitCount() < params.least_hits) return result;
+
+  const Stopwatch search_watch;
+  const SignatureQuery query(scan, params.signature);
+  const PyramidSearchResult found =
+      searchPyramid(impl_->pyramid, query, prior, scan.sensor(), params.search);
+  result.statistics.evaluated = found.evaluated;
+  result.statistics.refined = found.candidates.size();
+  result.statistics.search_ms = 1e3 * search_watch.seconds();
+
+  const Stopwatch refinement_watch;
+  const ScanCost cost(impl_->predictor, scan, params.cost);
+  const std::vector<RankedPose> poses = impl_->refine(found.candidates, scan, cost);
+  if (poses.empty() || poses.front().cost > params.hypotheses.no_match_cost) {
+    result.status = LocalizationStatus::no_match;
+  } else {
+    result.status = isUnique(poses, cost, params.hypotheses) ? LocalizationStatus::unique
+                                                             : LocalizationStatus::ambiguous;
+    result.hypotheses = toHypotheses(poses, scan, params.hypotheses);
+  }
+  result.statistics.refinement_ms = 1e3 * refinement_watch.seconds();
+  return result;
+}
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <mrpt_polyloc/localization/RangeScan.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace mrpt_polyloc {
+
+/// The truncations of RobustCost, all in metres.
+struct RobustCostParams {
+  /// Cap where a beam ends before the map's wall: an obstacle that is not in the map.
+  double tau_short = 0.4;
+  /// Cap where a beam passes the map's wall: contradicts the map, so dearer than tau_short.
+  double tau_long = 0.6;
+  /// Cap where a beam went on past an open edge, into what the map does not know, and ended there
+  /// before the first wall beyond. (Beyond that wall tau_long holds: the wall is known.)
+  double tau_open = 0.25;
+  /// Cost of a beam without return where a near wall should have returned it; glass and black paint
+  /// do that, so the smallest of all.
+  double tau_none = 0.15;
+  /// A wall is near if it stands within this share of the range up to which nothing was seen.
+  double none_share = 0.8;
+
+  /// \throws InvalidParamsError naming the bad field.
+  void check() const;
+};
+
+/// The robust relative of the polar coordinate metric that the search minimises: a mean over beams
+/// of a truncated, asymmetric absolute difference of ranges, with rules for open edges.
+///
+/// With z the measured range, w the predicted range to the first wall and o the range at which an
+/// open edge was crossed before it (infinity: none):
+///  - no open edge: z < w: min(w - z, tau_short); else min(z - w, tau_long);
+///  - open edge:    z < o: min(o - z, tau_short); o <= z < w: min(w - z, tau_open); else
+///    min(z - w, tau_long);
+///  - no-return:    tau_none where w < none_share z and no open edge was crossed, else 0.
+class RobustCost {
+ public:
+  explicit RobustCost(const RobustCostParams& params = {})
+      : tau_short_(static_cast<float>(params.tau_short)),
+        tau_long_(static_cast<float>(params.tau_long)),
+        tau_open_(static_cast<float>(params.tau_open)),
+        tau_none_(static_cast<float>(params.tau_none)),
+        none_share_(static_cast<float>(params.none_share)) {}
+
+  /// The cost of one hit, or the no-return of one beam [m].
+  float hit(float z, float w, float o) const {
+    if (z >= w) return std::min(z - w, tau_long_);
+    if (z >= o) return std::min(w - z, tau_open_);
+    return std::min(std::min(o, w) - z, tau_short_);
+  }
+  float noReturn(float max_range, float w, float o) const {
+    return w < none_share_ * max_range && !(o < w) ? tau_none_ : 0.0F;
+  }
+  float operator()(const Beam& beam, float w, float o) const {
+    switch (beam.kind) {
+      case BeamKind::hit:
+        return hit(static_cast<float>(beam.range), w, o);
+      case BeamKind::no_return:
+        return noReturn(static_cast<float>(beam.range), w, o);
+      case BeamKind::invalid:
+        break;
+    }
+    return 0.0F;
+  }
+
+ private:
+  float tau_short_, tau_long_, tau_open_, tau_none_, none_share_;
+};
+
+}  // namespace mrpt_polyloc

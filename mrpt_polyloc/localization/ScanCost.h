@@ -1,0 +1,36 @@
+#pragma once
+
+#include <mrpt_polyloc/localization/RangeScan.h>
+#include <mrpt_polyloc/localization/RobustCost.h>
+#include <mrpt_polyloc/visibility/RangePredictor.h>
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace mrpt_polyloc {
+
+/// RobustCost of a whole scan at given poses, over all beams that say something.
+class ScanCost {
+ public:
+  /// Keeps a reference to the predictor.
+  ScanCost(const RangePredictor& predictor, const RangeScan& scan, const RobustCostParams& params);
+
+  /// Beams that take part: hits and no-returns, in the scan's order.
+  std::size_t beamCount() const { return beams_.size(); }
+
+  /// The mean over the beams [m]; 0 if there are none.
+  double mean(const mrpt::math::TPose2D& pose_map_beams) const;
+
+  /// The cost of each beam [m].
+  std::vector<float> perBeam(const mrpt::math::TPose2D& pose_map_beams) const;
+
+ private:
+  const RangePredictor* predictor_;
+  RobustCost cost_;
+  std::vector<Beam> beams_;
+  BeamPattern pattern_;
+};
+
+}  // namespace mrpt_polyloc

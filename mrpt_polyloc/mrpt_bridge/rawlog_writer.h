@@ -1,0 +1,16 @@
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <string>
+#include <vector>
+
+namespace mrpt_polyloc {
+
+/// Writes an MRPT rawlog (gzipped, observations only) of these scans, in this order; the same scans
+/// give the same bytes. An existing file is overwritten.
+/// \throws std::runtime_error naming the file if it cannot be written.
+void writeScansRawlog(const std::string& path,
+                      const std::vector<mrpt::obs::CObservation2DRangeScan>& scans);
+
+}  // namespace mrpt_polyloc

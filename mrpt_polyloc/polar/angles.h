@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cmath>
+
+namespace mrpt_polyloc {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kTwoPi = 2.0 * kPi;
+
+/// An angle [rad] brought into [0, 2 pi).
+inline double wrapToTwoPi(double angle) {
+  const double wrapped = angle - kTwoPi * std::floor(angle / kTwoPi);
+  // Rounding takes tiny negative angles to 2 pi itself.
+  return wrapped >= 0.0 && wrapped < kTwoPi ? wrapped : 0.0;
+}
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,260 @@
+#include "ProgramTest.h"
+#include <mrpt_polyloc/evaluation/truth.h>
+#include <mrpt_polyloc/mrpt_bridge/rawlog_writer.h>
+
+#include <gmock/gmock.h>
+#include <mrpt/core/Clock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numeric>
+
+namespace mrpt_polyloc::test {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using testing::StartsWith;
+
+const char* const kHeader =
+    "row,stamp,status,rank,x,y,phi_deg,weight,cost,std_x,std_y,std_phi_deg,ms";
+
+/// CSV without its last column, the time.
+std::string withoutTimes(const std::string& csv) {
+  std::string rest;
+  for (const std::string& line : linesOf(csv)) rest += line.substr(0, line.rfind(',')) + "\n";
+  return rest;
+}
+
+class PolylocLocalize : public ProgramTest {
+ protected:
+  Outcome localize(const std::vector<std::string>& more,
+                   const std::string& scans = "sim/scans.rawlog") const {
+    std::vector<std::string> arguments = {"--map", roomFile(), "--scans", path(scans)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run("polyloc-localize", arguments);
+  }
+
+  /// The fields of the rows of rank 1, by row.
+  static std::map<int, std::vector<std::string>> firstAnswers(const std::string& csv) {
+    std::map<int, std::vector<std::string>> answers;
+    const std::vector<std::string> lines = linesOf(csv);
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      const std::vector<std::string> fields = fieldsOf(lines[i]);
+      if (fields[3] == "1") answers[std::stoi(fields[0])] = fields;
+    }
+    return answers;
+  }
+
+  /// A rawlog of scans with so many beams each.
+  std::string scansOfBeams(const std::vector<std::size_t>& counts) const {
+    std::vector<mrpt::obs::CObservation2DRangeScan> scans;
+    for (const std::size_t count : counts) {
+      mrpt::obs::CObservation2DRangeScan scan;
+      scan.sensorLabel = "LASER";
+      scan.timestamp = mrpt::Clock::fromDouble(1e9 + static_cast<double>(scans.size()));
+      scan.aperture = count > 1 ? 3.0f : 0.0f;
+      scan.maxRange = 20.0f;
+      scan.resizeScanAndAssign(count, 1.5f, true);
+      scans.push_back(scan);
+    }
+    writeScansRawlog(path("few.rawlog"), scans);
+    return "few.rawlog";
+  }
+};
+
+TEST_F(PolylocLocalize, FindsEveryScanOfAnAsymmetricRoom) {
+  simulate("sim");
+  const Outcome outcome = localize({});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, IsEmpty());
+  EXPECT_EQ(linesOf(outcome.out).front(), kHeader);
+  const auto answers = firstAnswers(outcome.out);
+  const auto truth = loadTum(path("sim/truth.tum"));
+  ASSERT_EQ(answers.size(), 12u);
+  for (const auto& [row, fields] : answers) {
+    const auto& pose = truth[static_cast<std::size_t>(row)].pose_map_robot;
+    EXPECT_NEAR(std::stod(fields[1]), truth[static_cast<std::size_t>(row)].stamp, 1e-6);
+    EXPECT_NEAR(std::stod(fields[4]), pose.x, 0.1) << "row " << row;
+    EXPECT_NEAR(std::stod(fields[5]), pose.y, 0.1) << "row " << row;
+    EXPECT_NEAR(std::remainder(std::stod(fields[6]) - pose.phi * 180 / M_PI, 360), 0, 2)
+        << "row " << row;
+  }
+}
+
+TEST_F(PolylocLocalize, WeightsOfAScanSumToOneAndRanksCount) {
+  simulate("sim");
+  std::map<std::string, std::vector<double>> weights;
+  const std::vector<std::string> lines = linesOf(localize({}).out);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> fields = fieldsOf(lines[i]);
+    ASSERT_THAT(fields, SizeIs(13));
+    weights[fields[0]].push_back(std::stod(fields[7]));
+    EXPECT_EQ(std::stoul(fields[3]), weights[fields[0]].size());
+  }
+  EXPECT_THAT(weights, SizeIs(12));
+  for (const auto& [row, parts] : weights) {
+    EXPECT_NEAR(std::accumulate(parts.begin(), parts.end(), 0.0), 1.0, 1e-4) << "row " << row;
+  }
+}
+
+TEST_F(PolylocLocalize, RowsChoosesScansAndClips) {
+  simulate("sim");
+  const Outcome outcome = localize({"--rows", "10-99,3"});
+  ASSERT_EQ(outcome.code, 0);
+  std::vector<int> rows;
+  for (const auto& answer : firstAnswers(outcome.out)) rows.push_back(answer.first);
+  EXPECT_THAT(rows, ElementsAre(3, 10, 11));
+}
+
+TEST_F(PolylocLocalize, RowsOutOfRangeFail) {
+  simulate("sim");
+  const Outcome outcome = localize({"--rows", "12-20"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("scans.rawlog"), HasSubstr("--rows 12-20"),
+                                 HasSubstr("rows 0 to 11")));
+}
+
+TEST_F(PolylocLocalize, ResultsDoNotDependOnThreadsOrRuns) {
+  simulate("sim", {"--occluders", "2"});
+  const std::string once = withoutTimes(localize({"--threads", "1"}).out);
+  EXPECT_THAT(linesOf(once), SizeIs(testing::Ge(13u)));
+  EXPECT_EQ(once, withoutTimes(localize({"--threads", "1"}).out));
+  EXPECT_EQ(once, withoutTimes(localize({"--threads", "2"}).out));
+  EXPECT_EQ(once, withoutTimes(localize({}).out));
+}
+
+TEST_F(PolylocLocalize, MaxHypothesesLimitsTheList) {
+  simulate("sim");
+  const Outcome outcome = localize({"--max-hypotheses", "1"});
+  EXPECT_THAT(linesOf(outcome.out), SizeIs(1 + 12));
+  EXPECT_THAT(firstAnswers(outcome.out), SizeIs(12));
+}
+
+TEST_F(PolylocLocalize, ACompassAndAPlaceRuleOutOtherPoses) {
+  simulate("sim");
+  const auto truth = loadTum(path("sim/truth.tum"))[0].pose_map_robot;
+  const std::string place = std::to_string(truth.x) + "," + std::to_string(truth.y) + ",0.5";
+  const Outcome near = localize({"--rows", "0", "--near", place});
+  const auto answers = firstAnswers(near.out);
+  ASSERT_THAT(answers, SizeIs(1));
+  const std::vector<std::string> lines = linesOf(near.out);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> fields = fieldsOf(lines[i]);
+    EXPECT_LT(std::hypot(std::stod(fields[4]) - truth.x, std::stod(fields[5]) - truth.y), 1.0);
+  }
+  const double degrees = truth.phi * 180 / M_PI;
+  for (const std::string& line :
+       linesOf(localize({"--rows", "0", "--compass", std::to_string(degrees), "--compass-tolerance",
+                         "15"})
+                   .out)) {
+    const std::vector<std::string> fields = fieldsOf(line);
+    if (fields[3] == "rank" || fields[3] == "0") continue;
+    EXPECT_LT(std::abs(std::remainder(std::stod(fields[6]) - degrees, 360)), 20);
+  }
+}
+
+TEST_F(PolylocLocalize, ScansWithoutInformationHaveOneRowOfRankZero) {
+  const Outcome outcome = localize({}, scansOfBeams({0, 1}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_THAT(lines, SizeIs(3));
+  EXPECT_THAT(lines[1], StartsWith("0,1000000000.000000,too_few_beams,0,,,,,,,,,"));
+  EXPECT_THAT(lines[2], StartsWith("1,1000000001.000000,too_few_beams,0,,,,,,,,,"));
+  EXPECT_THAT(fieldsOf(lines[1]), SizeIs(13));
+}
+
+TEST_F(PolylocLocalize, WritesCsvPictureAndIni) {
+  simulate("sim");
+  const Outcome outcome = localize({"--rows", "0-2", "-o", path("out.csv"), "--svg",
+                                    path("out.svg"), "--pf-ini", path("out.ini")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, IsEmpty());
+  EXPECT_EQ(linesOf(readFile(path("out.csv"))).front(), kHeader);
+  EXPECT_THAT(readFile(path("out.svg")),
+              AllOf(HasSubstr("class=\"hit\""), HasSubstr("class=\"best\""),
+                    HasSubstr("class=\"path\""), HasSubstr("</svg>")));
+  EXPECT_THAT(files(), ElementsAre("out.csv", "out.ini", "out.svg", "room.wkt", "sim"));
+
+  std::map<std::string, double> values;
+  const std::vector<std::string> ini = linesOf(readFile(path("out.ini")));
+  EXPECT_THAT(ini, Contains("[LocalizationExperiment]"));
+  for (const std::string& line : ini) {
+    const std::size_t equals = line.find('=');
+    if (line[0] != '#' && equals != std::string::npos) {
+      values[line.substr(0, equals)] = std::stod(line.substr(equals + 1));
+    }
+  }
+  const auto truth = loadTum(path("sim/truth.tum"))[0].pose_map_robot;
+  EXPECT_EQ(values.at("init_PDF_mode"), 1);
+  EXPECT_LT(values.at("init_PDF_min_x"), truth.x);
+  EXPECT_GT(values.at("init_PDF_max_x"), truth.x);
+  EXPECT_GE(values.at("init_PDF_max_x") - values.at("init_PDF_min_x"), 0.4999);
+  EXPECT_LT(values.at("init_PDF_min_y"), truth.y);
+  EXPECT_GT(values.at("init_PDF_max_y"), truth.y);
+  EXPECT_GE(values.at("init_PDF_max_yaw_deg") - values.at("init_PDF_min_yaw_deg"), 9.999);
+}
+
+TEST_F(PolylocLocalize, NoIniWithoutALocalizedScan) {
+  const Outcome outcome =
+      localize({"-o", path("out.csv"), "--pf-ini", path("out.ini")}, scansOfBeams({1}));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("out.ini"), HasSubstr("no scan could be localized")));
+  EXPECT_THAT(files(), ElementsAre("few.rawlog", "room.wkt"));
+}
+
+TEST_F(PolylocLocalize, BadScanFilesFailWithAMessage) {
+  const auto expectFailure = [&](const std::string& scans, const std::string& reason) {
+    const Outcome outcome = localize({}, scans);
+    EXPECT_EQ(outcome.code, 1) << scans;
+    EXPECT_THAT(outcome.err,
+                AllOf(HasSubstr("polyloc-localize: "), HasSubstr(scans), HasSubstr(reason)));
+    EXPECT_THAT(outcome.out, IsEmpty());
+  };
+  expectFailure("missing.rawlog", "no such file");
+  expectFailure("missing.log", "no such file");
+  write("scans.bag", "x");
+  expectFailure("scans.bag", "unknown extension");
+  write("empty.rawlog", "");
+  expectFailure("empty.rawlog", "empty");
+  write("empty.log", "");
+  expectFailure("empty.log", "");
+  write("foreign.rawlog", "no rawlog at all");
+  expectFailure("foreign.rawlog", "");
+  write("fov.log", "FLASER 3 1.0 1.0 1.0 0 0 0 0 0 0 1.0 host 1.0\n");
+  expectFailure("fov.log", "--laser-fov");
+}
+
+TEST_F(PolylocLocalize, LaserFovSaysWhatACarmenLogDoesNot) {
+  write("fov.log", "FLASER 3 1.0 1.0 1.0 0 0 0 0 0 0 1.0 host 1.0\n");
+  const Outcome outcome = localize({"--laser-fov", "180"}, "fov.log");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(linesOf(outcome.out), SizeIs(2));
+}
+
+TEST_F(PolylocLocalize, AnUnknownSensorLabelFails) {
+  simulate("sim");
+  EXPECT_EQ(localize({"--sensor", "LASER", "--rows", "0"}).code, 0);
+  const Outcome outcome = localize({"--sensor", "REAR"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("REAR"));
+}
+
+TEST_F(PolylocLocalize, UnwritableOutputFailsBeforeTheSearch) {
+  const std::string room = roomFile();
+  for (const char* option : {"-o", "--svg", "--pf-ini"}) {
+    const Outcome outcome = localize({option, room + "/out"}, "missing.rawlog");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(room + "/out"), HasSubstr("Not a directory")));
+  }
+  EXPECT_THAT(files(), ElementsAre("room.wkt"));
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc::test

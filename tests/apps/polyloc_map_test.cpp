@@ -1,0 +1,174 @@
+#include "ProgramTest.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace mrpt_polyloc::test {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class PolylocMap : public ProgramTest {
+ protected:
+  Outcome map(const std::vector<std::string>& arguments) const {
+    return run("polyloc-map", arguments);
+  }
+
+  /// A room with an unambiguous defect: a vertex given twice.
+  std::string repairableFile() const {
+    return write("repairable.wkt", "POLYGON ((0 0, 4 0, 4 0, 4 3, 0 3, 0 0))\n");
+  }
+
+  /// Two triangles of 4 m2 each that share a crossing: which of them is free?
+  std::string bowTieFile() const {
+    return write("bowtie.wkt", "POLYGON ((0 0, 4 4, 4 0, 0 4, 0 0))\n");
+  }
+};
+
+TEST_F(PolylocMap, JsonHasExactlyTheKeysOfTheDesign) {
+  const Outcome outcome = map({roomFile(), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, IsEmpty());
+  const json report = json::parse(outcome.out);
+  std::vector<std::string> keys;
+  const auto ordered = nlohmann::ordered_json::parse(outcome.out);
+  for (const auto& item : ordered.items()) keys.push_back(item.key());
+  EXPECT_THAT(keys, ElementsAre("valid", "defects", "repairs", "vertices", "reflex_vertices",
+                                "holes", "components", "area_m2", "perimeter_m", "open_perimeter_m",
+                                "walls_beyond_m"));
+  EXPECT_EQ(report["valid"], true);
+  EXPECT_EQ(report["vertices"], 13);
+  EXPECT_EQ(report["reflex_vertices"], 3 + 3);  // of the outline, and all of the pillar
+  EXPECT_EQ(report["holes"], 1);
+  EXPECT_EQ(report["components"], 1);
+  EXPECT_NEAR(report["area_m2"].get<double>(), 36 + 1.8 - 0.9, 1e-9);
+  EXPECT_EQ(report["open_perimeter_m"], 0.0);
+}
+
+TEST_F(PolylocMap, ConvertsToGeoJsonAndBack) {
+  ASSERT_EQ(map({roomFile(), "-o", path("room.geojson")}).code, 0);
+  const json collection = json::parse(readFile(path("room.geojson")));
+  EXPECT_EQ(collection["type"], "FeatureCollection");
+  ASSERT_EQ(map({path("room.geojson"), "-o", path("again.wkt")}).code, 0);
+  const json before = json::parse(map({roomFile(), "--json"}).out);
+  const json after = json::parse(map({path("again.wkt"), "--json"}).out);
+  EXPECT_EQ(before, after);
+  EXPECT_THAT(files(), ElementsAre("again.wkt", "room.geojson", "room.wkt"));
+}
+
+TEST_F(PolylocMap, DrawsTheMap) {
+  ASSERT_EQ(map({roomFile(), "--svg", path("room.svg")}).code, 0);
+  EXPECT_THAT(readFile(path("room.svg")), AllOf(HasSubstr("<svg xmlns"), HasSubstr("</svg>")));
+}
+
+TEST_F(PolylocMap, ARepairedMapIsDoneWithWarnings) {
+  const Outcome outcome = map({repairableFile(), "-o", path("out.wkt")});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("polyloc-map: warning: "), HasSubstr("repairable.wkt"),
+                                 HasSubstr("(4.000, 0.000)")));
+  EXPECT_EQ(json::parse(map({path("out.wkt"), "--json"}).out)["vertices"], 4);
+}
+
+TEST_F(PolylocMap, CheckFailsOnRepairedDefectsAndListsThem) {
+  EXPECT_EQ(map({roomFile(), "--check"}).code, 0);
+  const Outcome outcome = map({repairableFile(), "--check"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("defect: "), HasSubstr("(4.000, 0.000)")));
+  const json report = json::parse(map({repairableFile(), "--check", "--json"}).out);
+  EXPECT_EQ(report["valid"], false);
+  ASSERT_EQ(report["defects"].size(), 1u);
+  EXPECT_EQ(report["defects"][0]["x"], 4.0);
+  EXPECT_EQ(report["defects"][0]["y"], 0.0);
+  EXPECT_EQ(report["repairs"].size(), 1u);
+}
+
+TEST_F(PolylocMap, AMapThatCannotBeRepairedIsRefusedWithItsDefects) {
+  const Outcome outcome = map({bowTieFile(), "-o", path("out.wkt"), "--json"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("bowtie.wkt"), HasSubstr("(2.000, 2.000)")));
+  const json report = json::parse(outcome.out);
+  EXPECT_EQ(report["valid"], false);
+  ASSERT_GE(report["defects"].size(), 1u);
+  EXPECT_EQ(report["defects"][0]["x"], 2.0);
+  EXPECT_THAT(report["repairs"], IsEmpty());
+  EXPECT_FALSE(std::filesystem::exists(path("out.wkt")));
+  EXPECT_THAT(map({bowTieFile(), "--check"}).out, HasSubstr("(2.000, 2.000)"));
+}
+
+/// Bad input: exit code 1, the message names the file and says what is wrong, nothing is written.
+TEST_F(PolylocMap, BadInputFailsWithAMessage) {
+  const auto expectFailure = [&](const std::string& input, const std::string& reason) {
+    const Outcome outcome = map({input, "-o", path("out.geojson")});
+    EXPECT_EQ(outcome.code, 1) << input;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(input), HasSubstr(reason)));
+    EXPECT_FALSE(std::filesystem::exists(path("out.geojson")));
+  };
+  expectFailure("missing.wkt", "no such file");
+  expectFailure("missing.geojson", "no such file");
+  expectFailure("missing.yaml", "no such file");
+  expectFailure("missing.simplemap.gz", "no such file");
+  write("map.dxf", "x");
+  expectFailure("map.dxf", ".dxf");
+  for (const char* name : {"empty.wkt", "empty.geojson", "empty.json", "empty.yaml",
+                           "empty.gridmap", "empty.simplemap"}) {
+    write(name, "");
+    expectFailure(name, "");
+  }
+  write("lonely.yaml",
+        "image: gone.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
+        "free_thresh: 0.196\n");
+  expectFailure("lonely.yaml", "gone.pgm");
+  write("broken.wkt", "POLYGON ((0 0, 1 0, 1 x, 0 0))\n");
+  expectFailure("broken.wkt", "line 1");
+  write("none.wkt", "POLYGON EMPTY\n");
+  expectFailure("none.wkt", "");
+}
+
+TEST_F(PolylocMap, AGridWithoutFreeSpaceFails) {
+  write("black.yaml",
+        "image: black.pgm\nresolution: 1.0\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
+        "free_thresh: 0.196\n");
+  write("black.pgm", std::string("P5\n4 4\n255\n") + std::string(16, '\0'));
+  const Outcome outcome = map({"black.yaml"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("black.yaml"), HasSubstr("free")));
+}
+
+TEST_F(PolylocMap, UnwritableOutputFails) {
+  const std::string room = roomFile();
+  for (const char* option : {"-o", "--svg"}) {
+    const std::string inside_a_file = room + "/out.geojson";
+    Outcome outcome = map({room, option, inside_a_file});
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(inside_a_file), HasSubstr("Not a directory")));
+    outcome = map({room, option, path("none/out.geojson")});
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("none/out.geojson"));
+  }
+  const Outcome outcome = map({room, "-o", path("out.png")});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("out.png"), HasSubstr(".geojson")));
+  EXPECT_THAT(files(), ElementsAre("room.wkt"));
+}
+
+TEST_F(PolylocMap, OpenEdgesDoNotGoIntoWkt) {
+  write("open.geojson", R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {"kind": "free"}, "geometry": {"type": "Polygon",
+     "coordinates": [[[0, 0], [4, 0], [4, 3], [0, 3], [0, 0]]]}},
+    {"type": "Feature", "properties": {"kind": "open"}, "geometry": {"type": "LineString",
+     "coordinates": [[4, 0], [4, 3]]}}]})");
+  EXPECT_EQ(json::parse(map({"open.geojson", "--json"}).out)["open_perimeter_m"], 3.0);
+  const Outcome outcome = map({"open.geojson", "-o", path("out.wkt")});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("out.wkt"), HasSubstr("open")));
+  EXPECT_FALSE(std::filesystem::exists(path("out.wkt")));
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc::test
