@@ -7,6 +7,7 @@
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/hilbert_sort.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 
@@ -49,17 +50,25 @@ struct Constraint {
   bool is_ring_edge;
 };
 
-/// Inserts many points in an order that keeps each near the last (CGAL's insertion walks), and
-/// returns their vertices in the given order.
-std::vector<Cdt::Vertex_handle> insertPoints(Cdt& cdt, const std::vector<Point>& points) {
+/// Sorts the numbers of points: sort(begin, end, traits) with CGAL's traits for points by number.
+template <class Sort>
+std::vector<std::size_t> sorted(const std::vector<Point>& points, Sort&& sort) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   using Map = CGAL::Pointer_property_map<Point>::const_type;
-  CGAL::spatial_sort(
-      order.begin(), order.end(),
-      CGAL::Spatial_sort_traits_adapter_2<Kernel, Map>(CGAL::make_property_map(points)));
+  sort(order.begin(), order.end(),
+       CGAL::Spatial_sort_traits_adapter_2<Kernel, Map>(CGAL::make_property_map(points)));
+  return order;
+}
+
+/// Inserts many points, each near the last (CGAL's insertion walks), and returns their vertices in
+/// the given order.
+std::vector<Cdt::Vertex_handle> insertPoints(Cdt& cdt, const std::vector<Point>& points) {
   std::vector<Cdt::Vertex_handle> vertices(points.size());
   Cdt::Face_handle hint;
+  const auto order = sorted(points, [](auto begin, auto end, const auto& traits) {
+    CGAL::spatial_sort(begin, end, traits);
+  });
   for (const std::size_t i : order) {
     vertices[i] = cdt.insert(points[i], hint);
     hint = vertices[i]->face();
@@ -147,22 +156,44 @@ void findWindings(const Cdt& cdt) {
   }
 }
 
+/// The finite faces along a space-filling curve: neighbours in space mostly are in memory too,
+/// which walks and expansions live on.
+std::vector<Cdt::Face_handle> facesInOrder(const Cdt& cdt) {
+  std::vector<Cdt::Face_handle> faces;
+  std::vector<Point> centers;
+  for (const Cdt::Face_handle f : cdt.finite_face_handles()) {
+    faces.push_back(f);
+    centers.push_back(CGAL::centroid(cdt.triangle(f)));
+  }
+  std::vector<Cdt::Face_handle> ordered;
+  ordered.reserve(faces.size());
+  const auto order = sorted(centers, [](auto begin, auto end, const auto& traits) {
+    CGAL::hilbert_sort(begin, end, traits);
+  });
+  for (const std::size_t i : order) ordered.push_back(faces[i]);
+  return ordered;
+}
+
 std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> flatten(const Cdt& cdt) {
+  const std::vector<Cdt::Face_handle> ordered = facesInOrder(cdt);
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    ordered[i]->info().index = static_cast<std::int32_t>(i);
+  }
   std::vector<TPoint2D> vertices;
   vertices.reserve(cdt.number_of_vertices());
-  for (const Cdt::Vertex_handle v : cdt.finite_vertex_handles()) {
-    v->info() = static_cast<std::int32_t>(vertices.size());
-    vertices.emplace_back(v->point().x(), v->point().y());
-  }
-  std::int32_t count = 0;
-  for (const Cdt::Face_handle f : cdt.finite_face_handles()) f->info().index = count++;
+  for (const Cdt::Vertex_handle v : cdt.finite_vertex_handles()) v->info() = Triangulation::kNone;
   std::vector<Triangulation::Face> faces;
-  faces.reserve(static_cast<std::size_t>(count));
-  for (const Cdt::Face_handle f : cdt.finite_face_handles()) {
+  faces.reserve(ordered.size());
+  for (const Cdt::Face_handle f : ordered) {
     Triangulation::Face face{};
     for (int i = 0; i < 3; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      face.vertex[k] = f->vertex(i)->info();
+      const Cdt::Vertex_handle v = f->vertex(i);
+      if (v->info() == Triangulation::kNone) {
+        v->info() = static_cast<std::int32_t>(vertices.size());
+        vertices.emplace_back(v->point().x(), v->point().y());
+      }
+      face.vertex[k] = v->info();
       const Cdt::Face_handle neighbor = f->neighbor(i);
       face.neighbor[k] = cdt.is_infinite(neighbor) ? Triangulation::kNone : neighbor->info().index;
       face.passage[k] = f->info().passage[k];
