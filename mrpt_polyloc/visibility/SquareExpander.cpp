@@ -21,28 +21,47 @@ double extent(const TPoint2D& a, const TPoint2D& b) {
 
 }  // namespace
 
-SquareExpander::SquareExpander(const Triangulation& triangulation)
-    : t_(&triangulation), passed_(3 * triangulation.faces().size()) {
-  circles_.reserve(t_->faces().size());
-  for (const Triangulation::Face& face : t_->faces()) {
-    const TPoint2D& a = t_->vertices()[static_cast<std::size_t>(face.vertex[0])];
-    const TPoint2D b = t_->vertices()[static_cast<std::size_t>(face.vertex[1])] - a;
-    const TPoint2D c = t_->vertices()[static_cast<std::size_t>(face.vertex[2])] - a;
+SquareExpander::SquareExpander(const Triangulation& t)
+    : t_(&t), origin_(t.vertices().front()), passed_(3 * t.faces().size()) {
+  nodes_.reserve(t.faces().size());
+  for (std::size_t face = 0; face < t.faces().size(); ++face) {
+    const Triangulation::Face& f = t.faces()[face];
+    Node node{f.vertex, {}, 0, 0, 0};
+    for (std::size_t i = 0; i < 3; ++i) {
+      node.across[i] = acrossOf(t, face, i);
+    }
+    const TPoint2D a = t.vertices()[static_cast<std::size_t>(f.vertex[0])];
+    const TPoint2D b = t.vertices()[static_cast<std::size_t>(f.vertex[1])] - a;
+    const TPoint2D c = t.vertices()[static_cast<std::size_t>(f.vertex[2])] - a;
     const double bb = b.x * b.x + b.y * b.y, cc = c.x * c.x + c.y * c.y;
     const double twice = 2.0 * std::max(cross(b, c), 1e-12);
     const TPoint2D m{(c.y * bb - b.y * cc) / twice, (b.x * cc - c.x * bb) / twice};
-    circles_.push_back({a.x + m.x, a.y + m.y, m.x * m.x + m.y * m.y});
+    node.x = static_cast<float>(a.x + m.x - origin_.x);
+    node.y = static_cast<float>(a.y + m.y - origin_.y);
+    node.squared_radius = static_cast<float>(m.x * m.x + m.y * m.y);
+    nodes_.push_back(node);
   }
+}
+
+std::int32_t SquareExpander::acrossOf(const Triangulation& t, std::size_t face, std::size_t i) {
+  if (t.passageOutwards(face, i) != Passage::clear) return kEnd;
+  const std::int32_t next = t.faces()[face].neighbor[i];
+  if (next == Triangulation::kNone) return kRim;
+  const auto& neighbors = t.faces()[static_cast<std::size_t>(next)].neighbor;
+  const auto back = std::find(neighbors.begin(), neighbors.end(), static_cast<std::int32_t>(face));
+  return 3 * next + static_cast<std::int32_t>(back - neighbors.begin());
 }
 
 void SquareExpander::expand(const Square& square, const std::vector<std::int32_t>& faces,
                             std::vector<HalfEdge>& ends) {
   square_ = square;
+  center_x_ = static_cast<float>(square.center.x - origin_.x);
+  center_y_ = static_cast<float>(square.center.y - origin_.y);
   ends_ = &ends;
   for (const std::int32_t face : faces) {
-    const Triangulation::Face& f = t_->faces()[static_cast<std::size_t>(face)];
+    const Node& node = nodes_[static_cast<std::size_t>(face)];
     for (std::uint32_t i = 0; i < 3; ++i) {
-      const std::int32_t right = f.vertex[(i + 1) % 3], left = f.vertex[(i + 2) % 3];
+      const std::int32_t right = node.vertex[(i + 1) % 3], left = node.vertex[(i + 2) % 3];
       reach(3 * static_cast<HalfEdge>(face) + i, {{right, right}, {left, left}});
     }
   }
@@ -103,7 +122,7 @@ SquareExpander::Limits SquareExpander::joined(const Limits& a, const Limits& b, 
 }
 
 void SquareExpander::reach(HalfEdge edge, const Cone& cone) {
-  const Triangulation::Face& near = t_->faces()[edge / 3];
+  const Node& near = nodes_[edge / 3];
   const std::uint32_t i = edge % 3;
   const std::int32_t right = near.vertex[(i + 1) % 3], left = near.vertex[(i + 2) % 3];
   Passed& passed = passed_[edge];
@@ -113,14 +132,12 @@ void SquareExpander::reach(HalfEdge edge, const Cone& cone) {
     if (cross(r, l) <= -square_.half * extent(r, l)) return;
     touched_.push_back(edge);
     passed.count = 1;
-    if (t_->passageOutwards(edge / 3, i) != Passage::clear) {
-      ends_->push_back(edge);
-      passed.count = kMostWidenings + 1;
-    } else if (near.neighbor[i] == Triangulation::kNone) {
+    if (near.across[i] < 0) {
+      if (near.across[i] == kEnd) ends_->push_back(edge);
       passed.count = kMostWidenings + 1;
     } else {
       passed.cone = cone;
-      wait(edge, near.neighbor[i]);
+      wait(edge, near.across[i]);
     }
     return;
   }
@@ -130,29 +147,25 @@ void SquareExpander::reach(HalfEdge edge, const Cone& cone) {
   if (wide.right == passed.cone.right && wide.left == passed.cone.left) return;
   if (++passed.count > kMostWidenings) wide = {{right, right}, {left, left}};
   passed.cone = wide;
-  if (!passed.is_waiting) wait(edge, near.neighbor[i]);
+  if (!passed.is_waiting) wait(edge, near.across[i]);
 }
 
-void SquareExpander::wait(HalfEdge edge, std::int32_t next) {
-  const Circle& circle = circles_[static_cast<std::size_t>(next)];
-  const double x = circle.x - square_.center.x, y = circle.y - square_.center.y;
-  queue_.push_back({static_cast<float>(x * x + y * y - circle.squared_radius), edge});
+void SquareExpander::wait(HalfEdge edge, std::int32_t across) {
+  const Node& node = nodes_[static_cast<std::size_t>(across) / 3];
+  const float x = node.x - center_x_, y = node.y - center_y_;
+  queue_.push_back({x * x + y * y - node.squared_radius, edge});
   std::push_heap(queue_.begin(), queue_.end());
   passed_[edge].is_waiting = true;
 }
 
 void SquareExpander::follow(HalfEdge edge) {
   const Cone cone = passed_[edge].cone;
-  const auto near = static_cast<std::int32_t>(edge / 3);
-  const std::int32_t next = t_->faces()[edge / 3].neighbor[edge % 3];
-  const Triangulation::Face& far = t_->faces()[static_cast<std::size_t>(next)];
-  std::uint32_t entered = 0;
-  while (far.neighbor[entered] != near) ++entered;
-  const std::int32_t apex = far.vertex[entered];
+  const auto across = static_cast<HalfEdge>(nodes_[edge / 3].across[edge % 3]);
+  const HalfEdge entered = across % 3, base = across - entered;
+  const std::int32_t apex = nodes_[across / 3].vertex[entered];
   const TPoint2D a = at(apex);
   const bool sees_right = isSeenPast(cone.right, a, Side::right);
   const bool sees_left = isSeenPast(cone.left, a, Side::left);
-  const HalfEdge base = 3 * static_cast<HalfEdge>(next);
   if (sees_left) {
     reach(base + (entered + 2) % 3,
           {sees_right ? tightened(cone.right, apex, Side::right) : cone.right, cone.left});

@@ -52,9 +52,14 @@ class SquareExpander {
     std::int32_t count = 0;  ///< how often the cone was set or widened
     bool is_waiting = false;
   };
-  struct Circle {
-    double x, y, squared_radius;
+  /// A face as the expansion needs it, in one cache line.
+  struct Node {
+    std::array<std::int32_t, 3> vertex;
+    std::array<std::int32_t, 3> across;  ///< the same edge from its other side, or kEnd or kRim
+    float x, y, squared_radius;          ///< of its circle, relative to the first vertex
   };
+  static constexpr std::int32_t kEnd = -1;  ///< a wall, or an open edge out of free space
+  static constexpr std::int32_t kRim = -2;  ///< of the box
   struct Waiting {
     float distance;  ///< squared, less the squared radius
     HalfEdge edge;
@@ -69,13 +74,16 @@ class SquareExpander {
   bool isWider(std::int32_t limit, const TPoint2D& x, Side side) const;
   Limits tightened(const Limits& limits, std::int32_t apex, Side side) const;
   Limits joined(const Limits& a, const Limits& b, std::int32_t end, Side side) const;
+  static std::int32_t acrossOf(const Triangulation& t, std::size_t face, std::size_t i);
   void reach(HalfEdge edge, const Cone& cone);
-  void wait(HalfEdge edge, std::int32_t next);
+  void wait(HalfEdge edge, std::int32_t across);
   void follow(HalfEdge edge);
 
   const Triangulation* t_;
-  std::vector<Circle> circles_;  ///< around the faces
+  TPoint2D origin_{0, 0};
+  std::vector<Node> nodes_;
   Square square_{{0, 0}, 0};
+  float center_x_ = 0, center_y_ = 0;  ///< relative to the origin
   std::vector<HalfEdge>* ends_ = nullptr;
   std::vector<Passed> passed_;
   std::vector<HalfEdge> touched_;
