@@ -50,7 +50,8 @@ bool bridgesGap(const OccupancyBitmap& bitmap, int column, int row, int gap) {
   return false;
 }
 
-/// Gives every unknown cell with a free neighbour for which the test holds a new state.
+/// Gives every unknown cell with a free neighbour for which the test holds a new state. All tests
+/// come before the first change.
 template <class Test>
 void changeRim(OccupancyBitmap& bitmap, CellState state, Test&& test) {
   std::vector<std::size_t> changed;
@@ -76,15 +77,17 @@ void BitmapCleaningParams::check() const {
 
 OccupancyBitmap cleanBitmap(OccupancyBitmap bitmap, const BitmapCleaningParams& params) {
   params.check();
-  if (!(bitmap.resolution > 0.0)) return bitmap;  // tracing will say so
-  constexpr int kWidestGap = 64;                  // in cells: bounds the work on fine grids
-  constexpr double kRounding = 1e-9;              // 0.3 m are 6 cells of 0.05 m
+  const bool has_all_cells = bitmap.width >= 0 && bitmap.height >= 0 &&
+                             bitmap.cells.size() == static_cast<std::size_t>(bitmap.width) *
+                                                        static_cast<std::size_t>(bitmap.height);
+  if (!(bitmap.resolution > 0.0) || !has_all_cells) return bitmap;  // tracing will say so
+  constexpr int kWidestGap = 64;      // in cells: bounds the work on fine grids
+  constexpr double kRounding = 1e-9;  // 0.3 m are 6 cells of 0.05 m
   const int gap = static_cast<int>(std::min(params.max_wall_gap / bitmap.resolution + kRounding,
                                             static_cast<double>(kWidestGap)));
   if (gap > 1) {
-    const OccupancyBitmap before = bitmap;
     changeRim(bitmap, CellState::occupied,
-              [&](int column, int row, int) { return bridgesGap(before, column, row, gap); });
+              [&](int column, int row, int) { return bridgesGap(bitmap, column, row, gap); });
   }
   constexpr int kMostNeighbours = 5;
   for (int pass = 0; pass < params.ragged_passes; ++pass) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/localization/RangeScan.h>
+#include <mrpt_polyloc/localization/RobustCost.h>
 
 #include <array>
 #include <cstddef>
@@ -37,7 +38,9 @@ struct SignatureQuery {
   bool informsFrom(std::size_t first) const { return informs_from_[first]; }
 
   /// Takes for each bin the beam nearest to its centre, hits before no-returns.
-  explicit SignatureQuery(const RangeScan& scan, const SignatureCosts& costs = {});
+  /// \param none_share see RobustCostParams
+  explicit SignatureQuery(const RangeScan& scan, const SignatureCosts& costs = {},
+                          double none_share = RobustCostParams{}.none_share);
 
  private:
   std::array<bool, 2 * kBins> informs_from_{};
