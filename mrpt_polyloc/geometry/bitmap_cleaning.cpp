@@ -24,15 +24,15 @@ int countAround(const OccupancyBitmap& bitmap, int column, int row, CellState st
   return count;
 }
 
-/// Whether two cells lie on opposite sides of the origin: seen from it, at least 153 degrees
-/// (tangent of the rest at most 1/2) apart.
-bool areOpposite(const Offset& a, const Offset& b) {
+/// Whether the line from the centre of one cell to that of another passes through the cell at the
+/// origin, which is neither of them.
+bool liesBetween(const Offset& a, const Offset& b) {
   const int dot = a.x * b.x + a.y * b.y;
   const int cross = a.x * b.y - a.y * b.x;
-  return dot < 0 && 2 * std::abs(cross) <= -dot;
+  return dot < 0 && 2 * std::abs(cross) < std::abs(a.x - b.x) + std::abs(a.y - b.y);
 }
 
-/// Whether a cell lies between two occupied ones at most `gap` cells apart.
+/// Whether a cell lies on the line between two occupied ones at most `gap` cells apart.
 bool bridgesGap(const OccupancyBitmap& bitmap, int column, int row, int gap) {
   std::vector<Offset> occupied;
   for (int y = 1 - gap; y < gap; ++y) {
@@ -44,7 +44,7 @@ bool bridgesGap(const OccupancyBitmap& bitmap, int column, int row, int gap) {
     for (std::size_t k = 0; k < i; ++k) {
       const Offset &a = occupied[i], &b = occupied[k];
       const int dx = a.x - b.x, dy = a.y - b.y;
-      if (dx * dx + dy * dy <= gap * gap && areOpposite(a, b)) return true;
+      if (dx * dx + dy * dy <= gap * gap && liesBetween(a, b)) return true;
     }
   }
   return false;
