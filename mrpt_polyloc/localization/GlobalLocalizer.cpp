@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/geometry/Triangulation.h>
+#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/ScanCost.h>
@@ -29,9 +30,8 @@ class Stopwatch {
 bool isAllowed(const PosePrior& prior, const mrpt::math::TPose2D& pose_map_robot,
                const HypothesisParams& params) {
   if (prior.compass) {
-    const double off =
-        std::remainder(pose_map_robot.phi - prior.compass->heading, 2.0 * 3.14159265358979323846);
-    if (std::abs(off) > prior.compass->tolerance + params.merge_angle) return false;
+    const double off = angleBetween(pose_map_robot.phi, prior.compass->heading);
+    if (off > prior.compass->tolerance + params.merge_angle) return false;
   }
   if (prior.near) {
     const double away =
@@ -127,6 +127,7 @@ double GlobalLocalizer::indexBuildSeconds() const {
 }
 
 LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePrior& prior) const {
+  prior.check();
   const GlobalLocalizerParams& params = impl_->params;
   LocalizationResult result;
   result.statistics.positions = impl_->pyramid.blocks(0).size();

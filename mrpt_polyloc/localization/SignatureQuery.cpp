@@ -17,15 +17,14 @@ void SignatureCosts::check() const {
 
 SignatureQuery::SignatureQuery(const RangeScan& scan, const SignatureCosts& costs,
                                double none_share) {
-  constexpr double kCircle = 2.0 * 3.14159265358979323846;
-  constexpr double kBinsPerRadian = static_cast<double>(kBins) / kCircle;
+  constexpr double kBinsPerRadian = static_cast<double>(kBins) / kTwoPi;
   std::array<const Beam*, kBins> chosen{};
   std::array<double, kBins> distance;
   distance.fill(std::numeric_limits<double>::infinity());
   for (const Beam& beam : scan.beams()) {
     if (beam.kind == BeamKind::invalid) continue;
     // Within half a circle of 0: any finite bearing has a bin.
-    const double place = std::remainder(beam.bearing, kCircle) * kBinsPerRadian;
+    const double place = std::remainder(beam.bearing, kTwoPi) * kBinsPerRadian;
     const double nearest = std::nearbyint(place);
     const auto bin =
         static_cast<std::size_t>(static_cast<int>(nearest) + static_cast<int>(kBins)) % kBins;

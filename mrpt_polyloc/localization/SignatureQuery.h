@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/localization/RangeScan.h>
 #include <mrpt_polyloc/localization/RobustCost.h>
 
@@ -48,7 +49,7 @@ struct SignatureQuery {
 
 /// The heading that the search calls `bin` [rad].
 inline double headingOfBin(std::size_t bin) {
-  return 2.0 * 3.14159265358979323846 * static_cast<double>(bin) / static_cast<double>(kBins);
+  return kTwoPi * static_cast<double>(bin) / static_cast<double>(kBins);
 }
 
 }  // namespace mrpt_polyloc

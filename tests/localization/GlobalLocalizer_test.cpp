@@ -401,6 +401,20 @@ TEST(GlobalLocalizer, AMapWithoutALatticePointHasNoMatch) {
   expectConsistent(result);
 }
 
+TEST(GlobalLocalizer, RefusesAPriorThatSaysNothing) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  PosePrior compass;
+  compass.compass = PosePrior::Compass{0.0, 4.0};
+  EXPECT_THAT(complaintOf(compass), HasSubstr("compass tolerance"));
+  compass.compass = PosePrior::Compass{nan, 0.1};
+  EXPECT_THAT(complaintOf(compass), HasSubstr("compass heading"));
+  PosePrior disk;
+  disk.near = PosePrior::Disk{0.0, 0.0, -1.0};
+  EXPECT_THAT(complaintOf(disk), HasSubstr("near radius"));
+  disk.near = PosePrior::Disk{0.0, std::numeric_limits<double>::infinity(), 1.0};
+  EXPECT_THAT(complaintOf(disk), HasSubstr("near y"));
+}
+
 TEST(GlobalLocalizer, CanBeMoved) {
   GlobalLocalizer built(squareMap(2.0), oneThread());
   const std::size_t bytes = built.indexBytes();
