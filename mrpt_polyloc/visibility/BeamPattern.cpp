@@ -23,10 +23,13 @@ BeamPattern::BeamPattern(const std::vector<double>& bearings) : order_(bearings.
     return wrapped[a] < wrapped[b];
   });
   is_in_order_ = std::is_sorted(order_.begin(), order_.end());
-  for (const std::uint32_t i : order_) {
-    bearings_.push_back(static_cast<float>(wrapped[i]));
-    cosines_.push_back(static_cast<float>(std::cos(wrapped[i])));
-    sines_.push_back(static_cast<float>(std::sin(wrapped[i])));
+  cosines_.assign(bearings.size(), 0.0F);
+  sines_.assign(bearings.size(), 0.0F);
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const double bearing = wrapped[order_[i]];
+    bearings_.push_back(static_cast<float>(bearing));
+    cosines_[i] = static_cast<float>(std::cos(bearing));
+    sines_[i] = static_cast<float>(std::sin(bearing));
   }
 
   // About six slots to a beam of a full circle: regular patterns then have one beam a slot at most.
@@ -42,11 +45,9 @@ BeamPattern::BeamPattern(const std::vector<double>& bearings) : order_(bearings.
   const std::int32_t most = *std::max_element(beams_in_slot.begin(), beams_in_slot.end());
   while (2 * greatest_step_ <= most) greatest_step_ *= 2;
 
-  constexpr float kBeyond = 10.0F;  // no angle is greater
-  const std::size_t padding = std::max(kPadding, 2 * static_cast<std::size_t>(greatest_step_));
-  bearings_.resize(bearings_.size() + padding, kBeyond);
-  cosines_.resize(cosines_.size() + padding);
-  sines_.resize(sines_.size() + padding);
+  // The search may look so far beyond the last beam, for angles that none comes after.
+  constexpr float kBeyond = 10.0F;
+  bearings_.resize(bearings_.size() + 2 * static_cast<std::size_t>(greatest_step_), kBeyond);
 }
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/visibility/FloatBlocks.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -10,10 +12,6 @@ namespace mrpt_polyloc {
 /// covers are one run (or two) of consecutive ones. Immutable.
 class BeamPattern {
  public:
-  /// So many elements of bearings(), cosines() and sines() may be read beyond the last one: vector
-  /// code handles whole blocks.
-  static constexpr std::size_t kPadding = 16;
-
   /// \param bearings any order, any number, repeated ones too [rad]
   /// \throws InvalidParamsError for one that is not finite
   explicit BeamPattern(const std::vector<double>& bearings);
@@ -25,6 +23,7 @@ class BeamPattern {
   bool isInOrder() const { return is_in_order_; }
   /// Of the sorted beams, in [-pi, pi].
   const float* bearings() const { return bearings_.data(); }
+  /// In whole blocks (see FloatBlocks).
   const float* cosines() const { return cosines_.data(); }
   const float* sines() const { return sines_.data(); }
 
@@ -53,7 +52,8 @@ class BeamPattern {
 
   std::vector<std::uint32_t> order_;
   bool is_in_order_ = true;
-  std::vector<float> bearings_, cosines_, sines_;
+  std::vector<float> bearings_;
+  FloatBlocks cosines_, sines_;
   std::vector<std::int32_t> first_in_slot_;  ///< the first beam in or after a slot
   float slots_per_radian_ = 1.0F;
   std::int32_t greatest_step_ = 1;  ///< power of two above half the most beams in a slot

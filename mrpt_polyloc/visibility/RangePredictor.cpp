@@ -24,27 +24,43 @@ ViewFrame frameOf(const mrpt::math::TPose2D& pose, const BoundaryChains& chains)
           static_cast<float>(std::sin(heading))};
 }
 
+constexpr float kLeast = 1e-30F;  // of inverse ranges; divides where nothing was met
+
 /// Ranges of the beams in their own order from inverse ranges of the sorted beams.
 POLYLOC_HOT_LOOP
-void toRanges(const BeamPattern& beams, const float* to_wall, const float* to_open, float* wall,
-              float* open) {
+void takeWallRanges(const BeamPattern& beams, const float* __restrict__ to_wall,
+                    float* __restrict__ wall) {
   const std::size_t n = beams.size();
-  constexpr float kLeast = 1e-30F;  // of inverse ranges; divides where nothing was met
   if (beams.isInOrder()) {
     for (std::size_t i = 0; i < n; ++i) {
       const float range = 1.0F / std::max(to_wall[i], kLeast);
       wall[i] = to_wall[i] > 0.0F ? range : kInfinity;
     }
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    wall[beams.order()[i]] = to_wall[i] > 0.0F ? 1.0F / to_wall[i] : kInfinity;
+  }
+}
+
+/// The same for the open edges before the walls; `to_open` is null where there are none.
+POLYLOC_HOT_LOOP
+void takeOpenRanges(const BeamPattern& beams, const float* __restrict__ to_wall,
+                    const float* __restrict__ to_open, float* __restrict__ open) {
+  const std::size_t n = beams.size();
+  if (to_open == nullptr) {
+    std::fill_n(open, n, kInfinity);
+    return;
+  }
+  if (beams.isInOrder()) {
     for (std::size_t i = 0; i < n; ++i) {
       const float range = 1.0F / std::max(to_open[i], kLeast);
       open[i] = to_open[i] > to_wall[i] ? range : kInfinity;
     }
     return;
   }
-  const std::uint32_t* order = beams.order().data();
   for (std::size_t i = 0; i < n; ++i) {
-    wall[order[i]] = to_wall[i] > 0.0F ? 1.0F / to_wall[i] : kInfinity;
-    open[order[i]] = to_open[i] > to_wall[i] ? 1.0F / to_open[i] : kInfinity;
+    open[beams.order()[i]] = to_open[i] > to_wall[i] ? 1.0F / to_open[i] : kInfinity;
   }
 }
 
@@ -52,18 +68,19 @@ void toRanges(const BeamPattern& beams, const float* to_wall, const float* to_op
 
 struct RangePredictor::Workspace {
   DepthWorkspace depths;
-  std::vector<float> wall, open;     ///< inverse ranges of the sorted beams
-  std::vector<float> along, across;  ///< of the lines that the sorted beams hit
+  FloatBlocks wall, open;  ///< inverse ranges of the sorted beams
+  HitColumns hits;
 };
 
 RangePredictor::RangePredictor(const Triangulation& triangulation, double cell_size, int threads)
     : box_(triangulation.box()), index_(triangulation, cell_size, threads) {}
 
-/// Calls raise(runs, count, frame, inverse) for the walls and for the open edges that may be seen
-/// from a pose; for none outside the triangulated box.
-template <class RaiseWalls, class RaiseOpen>
-void RangePredictor::forVisible(const mrpt::math::TPose2D& pose, std::int64_t cell,
-                                RaiseWalls&& raise_walls, RaiseOpen&& raise_open) const {
+/// Raises `wall`, inverse ranges or hits, to what is seen from a pose (nothing outside the
+/// triangulated box), and writes the ranges to the first open edges.
+template <class Depths>
+void RangePredictor::look(const mrpt::math::TPose2D& pose, std::int64_t cell,
+                          const BeamPattern& beams, Workspace& w, Depths& wall) const {
+  w.open.assign(0, 0.0F);
   const bool is_known = pose.x >= box_.min.x && pose.x <= box_.max.x && pose.y >= box_.min.y &&
                         pose.y <= box_.max.y && std::isfinite(pose.phi);  // false for NaN
   if (!is_known) return;
@@ -72,22 +89,19 @@ void RangePredictor::forVisible(const mrpt::math::TPose2D& pose, std::int64_t ce
   VisibleEdgeIndex::Cell seen{chains.walls().data(), chains.walls().size(), chains.open().data(),
                               chains.open().size()};
   if (cell >= 0) seen = index_.cell(cell);
-  raise_walls(seen.walls, seen.wall_runs, frame);
-  raise_open(seen.open, seen.open_runs, frame);
+  raiseDepths(chains, seen.walls, seen.wall_runs, frame, beams, w.depths, wall);
+  if (seen.open_runs == 0) return;
+  w.open.assign(beams.size(), 0.0F);
+  raiseDepths(chains, seen.open, seen.open_runs, frame, beams, w.depths, w.open);
 }
 
 void RangePredictor::predict(const mrpt::math::TPose2D& pose, std::int64_t cell,
                              const BeamPattern& beams, Workspace& w, float* wall,
                              float* open) const {
-  w.wall.assign(beams.size() + BeamPattern::kPadding, 0.0F);
-  w.open.assign(beams.size() + BeamPattern::kPadding, 0.0F);
-  const auto raiseInto = [&](std::vector<float>& inverse) {
-    return [&](const BoundaryChains::Run* runs, std::size_t count, const ViewFrame& frame) {
-      raiseDepths(index_.chains(), runs, count, frame, beams, w.depths, inverse.data());
-    };
-  };
-  forVisible(pose, cell, raiseInto(w.wall), raiseInto(w.open));
-  toRanges(beams, w.wall.data(), w.open.data(), wall, open);
+  w.wall.assign(beams.size(), 0.0F);
+  look(pose, cell, beams, w, w.wall);
+  takeWallRanges(beams, w.wall.data(), wall);
+  takeOpenRanges(beams, w.wall.data(), w.open.data(), open);
 }
 
 void RangePredictor::predict(const mrpt::math::TPose2D& pose_map_beams, const BeamPattern& beams,
@@ -95,24 +109,13 @@ void RangePredictor::predict(const mrpt::math::TPose2D& pose_map_beams, const Be
   const std::size_t n = beams.size();
   for (auto* column : {&out.wall, &out.open, &out.along, &out.across}) column->resize(n);
   Workspace& w = workspace();
-  for (auto* column : {&w.wall, &w.open, &w.along, &w.across}) {
-    column->assign(n + BeamPattern::kPadding, 0.0F);
-  }
-  const auto raiseWalls = [&](const BoundaryChains::Run* runs, std::size_t count,
-                              const ViewFrame& frame) {
-    raiseDepths(index_.chains(), runs, count, frame, beams, w.depths,
-                HitColumns{w.wall.data(), w.along.data(), w.across.data()});
-  };
-  const auto raiseOpen = [&](const BoundaryChains::Run* runs, std::size_t count,
-                             const ViewFrame& frame) {
-    raiseDepths(index_.chains(), runs, count, frame, beams, w.depths, w.open.data());
-  };
-  forVisible(pose_map_beams, index_.cellNumber({pose_map_beams.x, pose_map_beams.y}), raiseWalls,
-             raiseOpen);
-  toRanges(beams, w.wall.data(), w.open.data(), out.wall.data(), out.open.data());
+  for (auto* column : {&w.hits.inverse, &w.hits.along, &w.hits.across}) column->assign(n, 0.0F);
+  look(pose_map_beams, index_.cellNumber({pose_map_beams.x, pose_map_beams.y}), beams, w, w.hits);
+  takeWallRanges(beams, w.hits.inverse.data(), out.wall.data());
+  takeOpenRanges(beams, w.hits.inverse.data(), w.open.data(), out.open.data());
   for (std::size_t i = 0; i < n; ++i) {
-    out.along[beams.order()[i]] = w.along[i];
-    out.across[beams.order()[i]] = w.across[i];
+    out.along[beams.order()[i]] = w.hits.along[i];
+    out.across[beams.order()[i]] = w.hits.across[i];
   }
 }
 

@@ -64,9 +64,9 @@ class RangePredictor {
  private:
   struct Workspace;
   static Workspace& workspace();  ///< of the calling thread, kept between calls
-  template <class RaiseWalls, class RaiseOpen>
-  void forVisible(const mrpt::math::TPose2D& pose, std::int64_t cell, RaiseWalls&& raise_walls,
-                  RaiseOpen&& raise_open) const;
+  template <class Depths>
+  void look(const mrpt::math::TPose2D& pose, std::int64_t cell, const BeamPattern& beams,
+            Workspace& workspace, Depths& wall) const;
   void predict(const mrpt::math::TPose2D& pose, std::int64_t cell, const BeamPattern& beams,
                Workspace& workspace, float* wall, float* open) const;
 

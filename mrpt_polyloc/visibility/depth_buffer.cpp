@@ -15,8 +15,8 @@ constexpr float kPi = 3.14159265F;
 
 /// Loops over short runs go in whole blocks, of as many floats as the widest vectors hold: what is
 /// beyond the end is computed too and then masked or overwritten.
-constexpr std::size_t kBlock = 16;
-static_assert(kBlock <= BoundaryChains::kPadding && kBlock <= BeamPattern::kPadding);
+constexpr std::size_t kBlock = FloatBlocks::kBlock;
+static_assert(kBlock <= BoundaryChains::kPadding);
 
 /// atan2 without branches, for vector code. Error below 4e-7: the polynomial interpolates
 /// atan(a) / a in a^2 at the nine Chebyshev nodes of [0, 1] (error 1e-8), the rest is rounding.
@@ -150,60 +150,50 @@ POLYLOC_INLINE void takeLines(std::size_t count, const ViewFrame& frame, DepthWo
   }
 }
 
-/// inverse[i] = max(inverse[i], min(along cos + across sin, nearest)) for i in [first, last).
-POLYLOC_INLINE void raise(const BeamPattern& beams, float along, float across, float nearest,
-                          std::int32_t first, std::int32_t last, float* __restrict__ inverse) {
+/// An edge over the sorted beams [first, last): where it is hit, and how.
+struct Stretch {
+  float along, across, nearest;
+  std::int32_t first, last;
+};
+
+/// Calls raise(i, value) for the beams of a stretch and others beside it, with the inverse range
+/// min(along cos + across sin, nearest), and 0 for the others. In aligned blocks, so that a block
+/// that the last edge stored is loaded again as it was stored.
+template <class Raise>
+POLYLOC_INLINE void forEachBeam(const BeamPattern& beams, const Stretch& stretch, Raise raise) {
+  constexpr auto kStep = static_cast<std::int32_t>(kBlock);
   const float* __restrict__ cosines = beams.cosines();
   const float* __restrict__ sines = beams.sines();
-  for (std::int32_t i = first; i < last; i += static_cast<std::int32_t>(kBlock)) {
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(kBlock); ++k) {
+  const auto [along, across, nearest, first, last] = stretch;
+  const auto count = static_cast<std::uint32_t>(last - first);
+  for (std::int32_t i = first / kStep * kStep; i < last; i += kStep) {
+    for (std::int32_t k = 0; k < kStep; ++k) {
       const float value = std::min(along * cosines[i + k] + across * sines[i + k], nearest);
-      const float masked = i + k < last ? value : 0.0F;
-      inverse[i + k] = std::max(inverse[i + k], masked);
+      raise(i + k, static_cast<std::uint32_t>(i + k - first) < count ? value : 0.0F);
     }
   }
 }
 
-/// As raise(), and takes the line of the edge where it is the nearest so far.
-POLYLOC_INLINE void raiseWithLine(const BeamPattern& beams, float along, float across,
-                                  float nearest, std::int32_t first, std::int32_t last,
-                                  const HitColumns& hits) {
-  const float* __restrict__ cosines = beams.cosines();
-  const float* __restrict__ sines = beams.sines();
-  float* __restrict__ inverse = hits.inverse;
-  float* __restrict__ hit_along = hits.along;
-  float* __restrict__ hit_across = hits.across;
-  for (std::int32_t i = first; i < last; ++i) {
-    const float value = std::min(along * cosines[i] + across * sines[i], nearest);
-    const bool is_nearer = value > inverse[i];
-    inverse[i] = is_nearer ? value : inverse[i];
-    hit_along[i] = is_nearer ? along : hit_along[i];
-    hit_across[i] = is_nearer ? across : hit_across[i];
-  }
-}
-
-/// Calls raise_run(along, across, nearest, first, last) for each run of sorted beams that one of
-/// the edges covers.
-template <class RaiseRun>
-POLYLOC_INLINE void forEachRun(const BoundaryChains& chains, const Run* runs, std::size_t count,
-                               const ViewFrame& frame, const BeamPattern& beams, DepthWorkspace& w,
-                               RaiseRun raise_run) {
+/// Calls raise_stretch(stretch) for each run of sorted beams that one of the edges covers.
+template <class RaiseStretch>
+POLYLOC_INLINE void forEachStretch(const BoundaryChains& chains, const Run* runs, std::size_t count,
+                                   const ViewFrame& frame, const BeamPattern& beams,
+                                   DepthWorkspace& w, RaiseStretch raise_stretch) {
   const std::size_t vertices = gather(chains, runs, count, frame, w);
   takeBearings(vertices, frame, beams, w);
   const std::size_t edges = select(vertices, w);
   takeLines(edges, frame, w);
   const DepthWorkspace::Edges& e = w.edges;
   for (std::size_t i = 0; i < edges; ++i) {
-    const std::int32_t from = e.from[i], to = e.to[i];
-    const float along = e.ax[i], across = e.ay[i], nearest = e.nearest[i];
-    const auto wraps = w.bearing[static_cast<std::size_t>(e.vertex[i])] >
-                       w.bearing[static_cast<std::size_t>(e.vertex[i]) + 1];
-    if (!wraps) {
-      raise_run(along, across, nearest, from, to);
-    } else {  // across the bearing pi
-      raise_run(along, across, nearest, from, static_cast<std::int32_t>(beams.size()));
-      raise_run(along, across, nearest, 0, to);
+    const auto vertex = static_cast<std::size_t>(e.vertex[i]);
+    Stretch stretch{e.ax[i], e.ay[i], e.nearest[i], e.from[i], e.to[i]};
+    if (w.bearing[vertex] > w.bearing[vertex + 1]) {  // across the bearing pi
+      stretch.last = static_cast<std::int32_t>(beams.size());
+      raise_stretch(stretch);
+      stretch.first = 0;
+      stretch.last = e.to[i];
     }
+    raise_stretch(stretch);
   }
 }
 
@@ -212,25 +202,34 @@ POLYLOC_INLINE void forEachRun(const BoundaryChains& chains, const Run* runs, st
 POLYLOC_HOT_LOOP
 void raiseDepths(const BoundaryChains& chains, const Run* runs, std::size_t count,
                  const ViewFrame& frame, const BeamPattern& beams, DepthWorkspace& w,
-                 float* inverse) {
-  forEachRun(
-      chains, runs, count, frame, beams, w,
-      [&](float along, float across, float nearest, std::int32_t first, std::int32_t last)
-          __attribute__((always_inline)) {
-            raise(beams, along, across, nearest, first, last, inverse);
-          });
+                 FloatBlocks& inverse) {
+  float* __restrict__ depths = inverse.data();
+  const auto raise_stretch = [&](const Stretch& stretch) __attribute__((always_inline)) {
+    forEachBeam(
+        beams, stretch, [&](std::int32_t i, float value) __attribute__((always_inline)) {
+          depths[i] = std::max(depths[i], value);
+        });
+  };
+  forEachStretch(chains, runs, count, frame, beams, w, raise_stretch);
 }
 
 POLYLOC_HOT_LOOP
 void raiseDepths(const BoundaryChains& chains, const Run* runs, std::size_t count,
                  const ViewFrame& frame, const BeamPattern& beams, DepthWorkspace& w,
-                 const HitColumns& hits) {
-  forEachRun(
-      chains, runs, count, frame, beams, w,
-      [&](float along, float across, float nearest, std::int32_t first, std::int32_t last)
-          __attribute__((always_inline)) {
-            raiseWithLine(beams, along, across, nearest, first, last, hits);
-          });
+                 HitColumns& hits) {
+  float* __restrict__ depths = hits.inverse.data();
+  float* __restrict__ along = hits.along.data();
+  float* __restrict__ across = hits.across.data();
+  const auto raise_stretch = [&](const Stretch& stretch) __attribute__((always_inline)) {
+    forEachBeam(
+        beams, stretch, [&](std::int32_t i, float value) __attribute__((always_inline)) {
+          const bool is_nearer = value > depths[i];
+          depths[i] = is_nearer ? value : depths[i];
+          along[i] = is_nearer ? stretch.along : along[i];
+          across[i] = is_nearer ? stretch.across : across[i];
+        });
+  };
+  forEachStretch(chains, runs, count, frame, beams, w, raise_stretch);
 }
 
 }  // namespace mrpt_polyloc

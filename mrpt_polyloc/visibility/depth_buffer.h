@@ -2,6 +2,7 @@
 
 #include <mrpt_polyloc/visibility/BeamPattern.h>
 #include <mrpt_polyloc/visibility/BoundaryChains.h>
+#include <mrpt_polyloc/visibility/FloatBlocks.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -32,23 +33,20 @@ struct DepthWorkspace {
 };
 
 /// Raises `inverse[i]`, i over the sorted beams, to the greatest inverse range [1/m] of the edges
-/// of `runs` that beam i meets from their left; to be set to 0 before. Some elements beyond the
-/// last beam may be written: room for BeamPattern::kPadding more.
+/// of `runs` that beam i meets from their left; to be set to 0 before.
 void raiseDepths(const BoundaryChains& chains, const BoundaryChains::Run* runs, std::size_t count,
                  const ViewFrame& frame, const BeamPattern& beams, DepthWorkspace& workspace,
-                 float* inverse);
+                 FloatBlocks& inverse);
 
 /// Per sorted beam the inverse range of what it hits, and the coefficients of its line (see
-/// DepthWorkspace::Edges); as long as the pattern.
+/// DepthWorkspace::Edges).
 struct HitColumns {
-  float* inverse;
-  float* along;
-  float* across;
+  FloatBlocks inverse, along, across;
 };
 
 /// As above, and keeps the line of the edge that each beam hits.
 void raiseDepths(const BoundaryChains& chains, const BoundaryChains::Run* runs, std::size_t count,
                  const ViewFrame& frame, const BeamPattern& beams, DepthWorkspace& workspace,
-                 const HitColumns& hits);
+                 HitColumns& hits);
 
 }  // namespace mrpt_polyloc

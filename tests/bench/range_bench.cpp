@@ -106,12 +106,12 @@ double meanListLength(const RangePredictor& predictor, const std::vector<TPose2D
 
 double meanSeen(const Triangulation& triangulation, const std::vector<TPose2D>& poses) {
   ViewExpander expander(triangulation);
-  std::size_t sum = 0;
-  for (const TPose2D& pose : poses) {
-    const View& view = expander.expand({pose.x, pose.y});
+  std::size_t sum = 0, count = 0;
+  for (std::size_t i = 0; i < poses.size(); i += 100, ++count) {
+    const View& view = expander.expand({poses[i].x, poses[i].y});
     sum += view.ends.size() + view.open.size();
   }
-  return static_cast<double>(sum) / static_cast<double>(poses.size());
+  return static_cast<double>(sum) / static_cast<double>(count);
 }
 
 void predictPoses(benchmark::State& state, const PolygonMap& map, std::size_t beams,
