@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/evaluation/Simulator.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
+#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/errors.h>
 
 #include <mrpt/core/Clock.h>
@@ -12,7 +13,6 @@
 namespace mrpt_polyloc {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 
 /// Random numbers from mt19937_64, which the standard fixes, through transformations of our own,

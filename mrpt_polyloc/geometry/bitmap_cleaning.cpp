@@ -24,15 +24,15 @@ int countAround(const OccupancyBitmap& bitmap, int column, int row, CellState st
   return count;
 }
 
-/// Whether two cells lie on opposite sides of the origin: seen from it, at least 153 degrees
-/// (tangent of the rest at most 1/2) apart.
-bool areOpposite(const Offset& a, const Offset& b) {
+/// Whether the line from the centre of one cell to that of another passes through the cell at the
+/// origin, which is neither of them.
+bool liesBetween(const Offset& a, const Offset& b) {
   const int dot = a.x * b.x + a.y * b.y;
   const int cross = a.x * b.y - a.y * b.x;
-  return dot < 0 && 2 * std::abs(cross) <= -dot;
+  return dot < 0 && 2 * std::abs(cross) < std::abs(a.x - b.x) + std::abs(a.y - b.y);
 }
 
-/// Whether a cell lies between two occupied ones at most `gap` cells apart.
+/// Whether a cell lies on the line between two occupied ones at most `gap` cells apart.
 bool bridgesGap(const OccupancyBitmap& bitmap, int column, int row, int gap) {
   std::vector<Offset> occupied;
   for (int y = 1 - gap; y < gap; ++y) {
@@ -44,13 +44,14 @@ bool bridgesGap(const OccupancyBitmap& bitmap, int column, int row, int gap) {
     for (std::size_t k = 0; k < i; ++k) {
       const Offset &a = occupied[i], &b = occupied[k];
       const int dx = a.x - b.x, dy = a.y - b.y;
-      if (dx * dx + dy * dy <= gap * gap && areOpposite(a, b)) return true;
+      if (dx * dx + dy * dy <= gap * gap && liesBetween(a, b)) return true;
     }
   }
   return false;
 }
 
-/// Gives every unknown cell with a free neighbour for which the test holds a new state.
+/// Gives every unknown cell with a free neighbour for which the test holds a new state. All tests
+/// come before the first change.
 template <class Test>
 void changeRim(OccupancyBitmap& bitmap, CellState state, Test&& test) {
   std::vector<std::size_t> changed;
@@ -76,15 +77,17 @@ void BitmapCleaningParams::check() const {
 
 OccupancyBitmap cleanBitmap(OccupancyBitmap bitmap, const BitmapCleaningParams& params) {
   params.check();
-  if (!(bitmap.resolution > 0.0)) return bitmap;  // tracing will say so
-  constexpr int kWidestGap = 64;                  // in cells: bounds the work on fine grids
-  constexpr double kRounding = 1e-9;              // 0.3 m are 6 cells of 0.05 m
+  const bool has_all_cells = bitmap.width >= 0 && bitmap.height >= 0 &&
+                             bitmap.cells.size() == static_cast<std::size_t>(bitmap.width) *
+                                                        static_cast<std::size_t>(bitmap.height);
+  if (!(bitmap.resolution > 0.0) || !has_all_cells) return bitmap;  // tracing will say so
+  constexpr int kWidestGap = 64;      // in cells: bounds the work on fine grids
+  constexpr double kRounding = 1e-9;  // 0.3 m are 6 cells of 0.05 m
   const int gap = static_cast<int>(std::min(params.max_wall_gap / bitmap.resolution + kRounding,
                                             static_cast<double>(kWidestGap)));
   if (gap > 1) {
-    const OccupancyBitmap before = bitmap;
     changeRim(bitmap, CellState::occupied,
-              [&](int column, int row, int) { return bridgesGap(before, column, row, gap); });
+              [&](int column, int row, int) { return bridgesGap(bitmap, column, row, gap); });
   }
   constexpr int kMostNeighbours = 5;
   for (int pass = 0; pass < params.ragged_passes; ++pass) {

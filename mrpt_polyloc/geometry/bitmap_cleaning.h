@@ -8,8 +8,9 @@ namespace mrpt_polyloc {
 /// from laser scans, where each far wall is a row of dots, and free space ends in the rays of the
 /// scans.
 struct BitmapCleaningParams {
-  /// Unknown cells at the rim of free space that lie between two occupied cells at most this far
-  /// apart become occupied [m]: the dots of a wall are joined, a door (0.7 m) is not closed.
+  /// Unknown cells at the rim of free space through which the line between two occupied cells at
+  /// most this far apart passes become occupied [m]: the dots of a wall are joined, a door (0.7 m)
+  /// is not closed.
   /// Without it beams leave through the wall between two dots. 0: none.
   double max_wall_gap = 0.3;
   /// So many times, unknown cells with at least five free ones among their eight neighbours become

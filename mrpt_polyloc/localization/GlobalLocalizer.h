@@ -43,7 +43,8 @@ class GlobalLocalizer {
   GlobalLocalizer(GlobalLocalizer&&) noexcept;
 
   /// Every pose that explains the scan. Never throws for what a scan contains: a scan that cannot
-  /// be localized is a status.
+  /// be localized is a status. \throws InvalidParamsError for a prior that is not finite or in
+  /// range
   LocalizationResult localize(const RangeScan& scan, const PosePrior& prior = {}) const;
 
   const PolygonMap& map() const;

@@ -40,6 +40,9 @@ struct PosePrior {
   };
   std::optional<Compass> compass;
   std::optional<Disk> near;
+
+  /// \throws InvalidParamsError naming the bad field.
+  void check() const;
 };
 
 /// What the search did.

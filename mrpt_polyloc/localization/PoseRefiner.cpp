@@ -68,7 +68,8 @@ RefinedPose PoseRefiner::refine(const mrpt::math::TPose2D& start) const {
       const double along = static_cast<double>(predicted.along[i]);
       const double across = static_cast<double>(predicted.across[i]);
       const double inverse_distance = std::hypot(along, across);
-      if (!(inverse_distance > 0.0)) continue;  // no wall there
+      // No wall there, or the pose stands on it.
+      if (!(inverse_distance > 0.0 && std::isfinite(inverse_distance))) continue;
       // The hit's distance beyond the line n.x = h, n the unit normal away from the robot.
       const double nx = along / inverse_distance, ny = across / inverse_distance;
       const double range = static_cast<double>(ranges_[i]);

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/PyramidSearch.h>
 
@@ -41,10 +42,6 @@ class BucketQueue {
   std::vector<std::vector<Node>> buckets_;
   std::size_t least_ = 0;
 };
-
-double angleBetween(double a, double b) {
-  return std::abs(std::remainder(a - b, 2.0 * 3.14159265358979323846));
-}
 
 /// Which nodes may hold a pose that the prior allows.
 class PriorTest {

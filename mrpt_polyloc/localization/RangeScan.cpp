@@ -9,8 +9,9 @@ RangeScan::RangeScan(std::vector<Beam> beams, const mrpt::math::TPoint2D& sensor
                      std::string label)
     : beams_(std::move(beams)), sensor_(sensor), stamp_(stamp), label_(std::move(label)) {
   for (Beam& beam : beams_) {
-    const bool usable =
-        std::isfinite(beam.bearing) && std::isfinite(beam.range) && beam.range > 0.0;
+    // Ranges are compared in single precision: what is infinite there is no range.
+    const bool usable = std::isfinite(beam.bearing) &&
+                        std::isfinite(static_cast<float>(beam.range)) && beam.range > 0.0;
     if (!usable || beam.kind == BeamKind::invalid) beam = Beam{};
     hit_count_ += beam.kind == BeamKind::hit;
     no_return_count_ += beam.kind == BeamKind::no_return;

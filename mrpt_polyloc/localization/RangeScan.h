@@ -30,8 +30,8 @@ class RangeScan {
   /// \param sensor position of the beams' common origin in the robot frame [m]
   /// \param stamp seconds since 1970-01-01
   /// \param label of the sensor, to tell several lasers apart
-  /// A hit or no_return whose bearing or range is not finite, or whose range is not positive,
-  /// becomes invalid: a defined result for what sensors send.
+  /// A hit or no_return whose bearing or range is not finite (the range in single precision), or
+  /// whose range is not positive, becomes invalid: a defined result for what sensors send.
   RangeScan(std::vector<Beam> beams, const mrpt::math::TPoint2D& sensor = {0, 0},
             double stamp = 0.0, std::string label = {});
 

@@ -1,6 +1,5 @@
 #include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/RangeCode.h>
-#include <mrpt_polyloc/localization/RobustCost.h>
 #include <mrpt_polyloc/localization/SignatureQuery.h>
 
 #include <cmath>
@@ -16,18 +15,19 @@ void SignatureCosts::check() const {
   requireInRange("cap_none", cap_none, 0.0, kGreatest);
 }
 
-SignatureQuery::SignatureQuery(const RangeScan& scan, const SignatureCosts& costs) {
-  constexpr double kBinsPerRadian = static_cast<double>(kBins) / (2.0 * 3.14159265358979323846);
+SignatureQuery::SignatureQuery(const RangeScan& scan, const SignatureCosts& costs,
+                               double none_share) {
+  constexpr double kBinsPerRadian = static_cast<double>(kBins) / kTwoPi;
   std::array<const Beam*, kBins> chosen{};
   std::array<double, kBins> distance;
   distance.fill(std::numeric_limits<double>::infinity());
   for (const Beam& beam : scan.beams()) {
     if (beam.kind == BeamKind::invalid) continue;
-    const double place = beam.bearing * kBinsPerRadian;
+    // Within half a circle of 0: any finite bearing has a bin.
+    const double place = std::remainder(beam.bearing, kTwoPi) * kBinsPerRadian;
     const double nearest = std::nearbyint(place);
-    const double wrapped =
-        nearest - static_cast<double>(kBins) * std::floor(nearest / static_cast<double>(kBins));
-    const auto bin = static_cast<std::size_t>(wrapped) % kBins;
+    const auto bin =
+        static_cast<std::size_t>(static_cast<int>(nearest) + static_cast<int>(kBins)) % kBins;
     const double off_centre =
         std::abs(place - nearest) + (beam.kind == BeamKind::no_return ? 1.0 : 0.0);
     if (off_centre < distance[bin]) {
@@ -35,7 +35,6 @@ SignatureQuery::SignatureQuery(const RangeScan& scan, const SignatureCosts& cost
       chosen[bin] = &beam;
     }
   }
-  const double none_share = RobustCostParams{}.none_share;
   for (std::size_t i = 0; i < 2 * kBins; ++i) {
     const Beam* beam = chosen[i % kBins];
     if (beam == nullptr) continue;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/localization/RangeScan.h>
+#include <mrpt_polyloc/localization/RobustCost.h>
 
 #include <array>
 #include <cstddef>
@@ -37,7 +39,9 @@ struct SignatureQuery {
   bool informsFrom(std::size_t first) const { return informs_from_[first]; }
 
   /// Takes for each bin the beam nearest to its centre, hits before no-returns.
-  explicit SignatureQuery(const RangeScan& scan, const SignatureCosts& costs = {});
+  /// \param none_share see RobustCostParams
+  explicit SignatureQuery(const RangeScan& scan, const SignatureCosts& costs = {},
+                          double none_share = RobustCostParams{}.none_share);
 
  private:
   std::array<bool, 2 * kBins> informs_from_{};
@@ -45,7 +49,7 @@ struct SignatureQuery {
 
 /// The heading that the search calls `bin` [rad].
 inline double headingOfBin(std::size_t bin) {
-  return 2.0 * 3.14159265358979323846 * static_cast<double>(bin) / static_cast<double>(kBins);
+  return kTwoPi * static_cast<double>(bin) / static_cast<double>(kBins);
 }
 
 }  // namespace mrpt_polyloc

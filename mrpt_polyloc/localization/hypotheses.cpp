@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/hypotheses.h>
 
@@ -12,7 +13,7 @@ namespace {
 bool isNear(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b,
             const HypothesisParams& params) {
   return std::hypot(a.x - b.x, a.y - b.y) < params.merge_distance &&
-         std::abs(std::remainder(a.phi - b.phi, 2.0 * 3.14159265358979323846)) < params.merge_angle;
+         angleBetween(a.phi, b.phi) < params.merge_angle;
 }
 
 /// Mean and standard error of the differences of two cost vectors, by blocks of beams.

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/mrpt_bridge/GzInputStream.h>
 #include <mrpt_polyloc/mrpt_bridge/carmen.h>
@@ -17,7 +18,6 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 constexpr double kDefaultMaxRange = 80.0;  // [m]
 constexpr double kMaxSensorOffset = 5.0;   // [m]

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/mrpt_bridge/observation.h>
 #include <mrpt_polyloc/mrpt_bridge/readings.h>
 
@@ -15,7 +16,6 @@ namespace {
 
 constexpr double kPlanarTolerance = 1e-3;   // [rad], see the header
 constexpr double kBearingTolerance = 1e-6;  // [rad], of evenly spread beams
-constexpr double kPi = 3.14159265358979323846;
 
 [[noreturn]] void refuse(const mrpt::obs::CObservation2DRangeScan& observation,
                          const std::string& reason) {

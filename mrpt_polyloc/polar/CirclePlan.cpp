@@ -1,7 +1,7 @@
+#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/cpu_dispatch.h>
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/polar/CirclePlan.h>
-#include <mrpt_polyloc/polar/angles.h>
 
 #include <algorithm>
 #include <cmath>

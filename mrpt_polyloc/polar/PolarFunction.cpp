@@ -1,6 +1,6 @@
+#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/polar/PolarFunction.h>
-#include <mrpt_polyloc/polar/angles.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mrpt_polyloc/polar/angles.h>
+#include <mrpt_polyloc/geometry/angles.h>
 
 namespace mrpt_polyloc {
 

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/visibility/BeamPattern.h>
 
@@ -9,7 +10,6 @@
 namespace mrpt_polyloc {
 
 BeamPattern::BeamPattern(const std::vector<double>& bearings) : order_(bearings.size()) {
-  constexpr double kPi = 3.14159265358979323846;
   for (std::size_t i = 0; i < bearings.size(); ++i) {
     if (!std::isfinite(bearings[i])) {
       throw InvalidParamsError("bearings[" + std::to_string(i) + "]: not finite");

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/cpu_dispatch.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 #include <mrpt_polyloc/visibility/depth_buffer.h>
@@ -14,7 +15,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 ViewFrame frameOf(const mrpt::math::TPose2D& pose, const BoundaryChains& chains) {
-  const double heading = std::remainder(pose.phi, 2.0 * 3.14159265358979323846);
+  const double heading = std::remainder(pose.phi, kTwoPi);
   return {chains.fixedX(pose.x),
           chains.fixedY(pose.y),
           static_cast<float>(chains.unit()),

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/polar/PolarFunction.h>
-#include <mrpt_polyloc/polar/angles.h>
 
 #include <algorithm>
 #include <cmath>

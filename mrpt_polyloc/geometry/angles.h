@@ -14,4 +14,9 @@ inline double wrapToTwoPi(double angle) {
   return wrapped >= 0.0 && wrapped < kTwoPi ? wrapped : 0.0;
 }
 
+/// How far two headings are apart [rad], in [0, pi].
+inline double angleBetween(double a, double b) {
+  return std::abs(std::remainder(a - b, kTwoPi));
+}
+
 }  // namespace mrpt_polyloc

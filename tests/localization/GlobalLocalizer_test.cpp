@@ -1,0 +1,454 @@
+#include "params_messages.h"
+#include "simulated_scans.h"
+#include "tests/support/random_maps.h"
+#include <mrpt_polyloc/localization/GlobalLocalizer.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <string>
+#include <thread>
+
+namespace mrpt_polyloc::test {
+namespace {
+
+using mrpt::math::TPose2D;
+using ::testing::HasSubstr;
+
+GlobalLocalizerParams oneThread() {
+  GlobalLocalizerParams params;
+  params.threads = 1;
+  return params;
+}
+
+bool holdsPose(const LocalizationResult& result, const TPose2D& pose, double distance = 0.05) {
+  return std::any_of(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
+    return distanceBetween(h.pose_map_robot, pose) < distance &&
+           turnBetween(h.pose_map_robot, pose) < 0.02;
+  });
+}
+
+void expectFirstIs(const LocalizationResult& result, const TPose2D& truth, double distance = 0.02) {
+  ASSERT_FALSE(result.hypotheses.empty()) << toString(result.status);
+  const TPose2D& first = result.hypotheses.front().pose_map_robot;
+  EXPECT_LT(distanceBetween(first, truth), distance) << first.asString();
+  EXPECT_LT(turnBetween(first, truth), 0.01) << first.asString();
+}
+
+/// What every answer keeps.
+void expectConsistent(const LocalizationResult& result, std::size_t most = 20) {
+  const bool answered =
+      result.status == LocalizationStatus::unique || result.status == LocalizationStatus::ambiguous;
+  EXPECT_EQ(answered, !result.hypotheses.empty());
+  EXPECT_LE(result.hypotheses.size(), most);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < result.hypotheses.size(); ++i) {
+    const Hypothesis& h = result.hypotheses[i];
+    EXPECT_TRUE(std::isfinite(h.pose_map_robot.x + h.pose_map_robot.y + h.pose_map_robot.phi));
+    EXPECT_GE(h.weight, 0.0);
+    sum += h.weight;
+    if (i > 0) {
+      EXPECT_GE(h.cost, result.hypotheses[i - 1].cost);
+    }
+  }
+  if (answered) {
+    EXPECT_NEAR(sum, 1.0, 1e-9);
+  }
+}
+
+/// Equal but for the times.
+void expectSame(const LocalizationResult& a, const LocalizationResult& b) {
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.statistics.positions, b.statistics.positions);
+  EXPECT_EQ(a.statistics.evaluated, b.statistics.evaluated);
+  EXPECT_EQ(a.statistics.refined, b.statistics.refined);
+  ASSERT_EQ(a.hypotheses.size(), b.hypotheses.size());
+  for (std::size_t i = 0; i < a.hypotheses.size(); ++i) {
+    const Hypothesis &x = a.hypotheses[i], &y = b.hypotheses[i];
+    EXPECT_EQ(x.pose_map_robot, y.pose_map_robot);
+    EXPECT_EQ(x.covariance, y.covariance);
+    EXPECT_EQ(x.weight, y.weight);
+    EXPECT_EQ(x.cost, y.cost);
+  }
+}
+
+class InAsymmetricRoom : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { localizer_ = new GlobalLocalizer(asymmetricRoom(), oneThread()); }
+  static void TearDownTestSuite() {
+    delete localizer_;
+    localizer_ = nullptr;
+  }
+  static const GlobalLocalizer& localizer() { return *localizer_; }
+
+ private:
+  static GlobalLocalizer* localizer_;
+};
+
+GlobalLocalizer* InAsymmetricRoom::localizer_ = nullptr;
+
+TEST_F(InAsymmetricRoom, ACleanScanHasOnePose) {
+  for (const TPose2D& truth :
+       {TPose2D(1.52, 2.13, 0.3), TPose2D(6.3, 1.1, -2.0), TPose2D(3.71, 4.46, kPi)}) {
+    const auto result = localizer().localize(simulatedScan(asymmetricRoom(), truth));
+    EXPECT_EQ(result.status, LocalizationStatus::unique);
+    expectFirstIs(result, truth);
+    expectConsistent(result);
+    EXPECT_LT(result.hypotheses[0].cost, 0.01);
+  }
+}
+
+TEST_F(InAsymmetricRoom, StatisticsAndIndexSayWhatWasDone) {
+  const auto result = localizer().localize(simulatedScan(asymmetricRoom(), {1.5, 2, 0.3}));
+  // 29.08 m2 at 100 positions a square metre, and border rows.
+  const double area = localizer().map().area();
+  EXPECT_NEAR(static_cast<double>(result.statistics.positions), 100 * area, 0.1 * 100 * area);
+  EXPECT_GT(result.statistics.evaluated, 0U);
+  EXPECT_GT(result.statistics.refined, 0U);
+  EXPECT_LE(result.statistics.refined, PyramidSearchParams{}.max_candidates);
+  EXPECT_GE(result.statistics.search_ms, 0.0);
+  EXPECT_GE(result.statistics.refinement_ms, 0.0);
+  EXPECT_GT(localizer().indexBytes(), result.statistics.positions * 512);
+  EXPECT_GT(localizer().indexBuildSeconds(), 0.0);
+  EXPECT_EQ(localizer().map().hash(), asymmetricRoom().hash());
+}
+
+TEST_F(InAsymmetricRoom, NoiseAndObstaclesAreBorne) {
+  ScanOptions options;
+  options.sigma = 0.02;
+  options.short_share = 0.25;
+  for (std::uint32_t seed = 1; seed <= 3; ++seed) {
+    options.seed = seed;
+    const TPose2D truth(4.4, 1.0 + 0.3 * seed, 1.1);
+    const auto result = localizer().localize(simulatedScan(asymmetricRoom(), truth, options));
+    expectFirstIs(result, truth, 0.05);
+    expectConsistent(result);
+  }
+}
+
+TEST_F(InAsymmetricRoom, HalfACircleIsEnoughHere) {
+  ScanOptions options;
+  options.field_of_view = kPi;
+  options.beams = 180;
+  const TPose2D truth(1.2, 1.1, 0.5);
+  const auto result = localizer().localize(simulatedScan(asymmetricRoom(), truth, options));
+  expectFirstIs(result, truth);
+  expectConsistent(result);
+}
+
+TEST_F(InAsymmetricRoom, ThePoseIsTheRobotsNotItsSensors) {
+  ScanOptions options;
+  options.sensor = {0.6, -0.35};
+  const TPose2D truth(2.5, 1.4, 0.8);
+  const auto result = localizer().localize(simulatedScan(asymmetricRoom(), truth, options));
+  EXPECT_EQ(result.status, LocalizationStatus::unique);
+  expectFirstIs(result, truth);
+}
+
+TEST_F(InAsymmetricRoom, ThePriorHoldsForTheRobot) {
+  ScanOptions options;
+  options.sensor = {0.6, -0.35};
+  const TPose2D truth(2.5, 1.4, 0.8);
+  const RangeScan scan = simulatedScan(asymmetricRoom(), truth, options);
+  PosePrior prior;
+  prior.near = PosePrior::Disk{2.5, 1.4, 0.15};  // the sensor is not within
+  prior.compass = PosePrior::Compass{0.8, 0.05};
+  expectFirstIs(localizer().localize(scan, prior), truth);
+}
+
+TEST_F(InAsymmetricRoom, AWrongPriorNeverGivesAPoseOutsideIt) {
+  const TPose2D truth(1.5, 2, 0.3);
+  const RangeScan scan = simulatedScan(asymmetricRoom(), truth);
+  const HypothesisParams slack;
+  PosePrior compass;
+  for (const double off : {0.3, 1.0, 2.0, kPi}) {
+    compass.compass = PosePrior::Compass{truth.phi + off, 0.1};
+    const auto result = localizer().localize(scan, compass);
+    expectConsistent(result);
+    EXPECT_FALSE(holdsPose(result, truth));
+    for (const Hypothesis& h : result.hypotheses) {
+      EXPECT_LE(turnBetween(h.pose_map_robot, {0, 0, truth.phi + off}), 0.1 + slack.merge_angle);
+    }
+  }
+  PosePrior near;
+  for (const TPoint2D& center : {TPoint2D(2.2, 2), TPoint2D(3, 1), TPoint2D(4, 5)}) {
+    near.near = PosePrior::Disk{center.x, center.y, 0.4};
+    const auto result = localizer().localize(scan, near);
+    expectConsistent(result);
+    EXPECT_FALSE(holdsPose(result, truth));
+    for (const Hypothesis& h : result.hypotheses) {
+      EXPECT_LE(distanceBetween(h.pose_map_robot, {center.x, center.y, 0}),
+                0.4 + slack.merge_distance);
+    }
+  }
+}
+
+TEST_F(InAsymmetricRoom, NoMatchWhereThePriorIsOutsideTheMap) {
+  PosePrior prior;
+  prior.near = PosePrior::Disk{100, 100, 2};
+  const auto result = localizer().localize(simulatedScan(asymmetricRoom(), {1.5, 2, 0.3}), prior);
+  EXPECT_EQ(result.status, LocalizationStatus::no_match);
+  expectConsistent(result);
+}
+
+TEST_F(InAsymmetricRoom, AScanOfAMuchLargerPlaceHasNoMatch) {
+  const PolygonMap hall = squareMap(30.0);
+  const auto result = localizer().localize(simulatedScan(hall, {13, 16, 0.4}));
+  EXPECT_EQ(result.status, LocalizationStatus::no_match);
+  expectConsistent(result);
+}
+
+TEST_F(InAsymmetricRoom, AScanFromOutsideTheMapGetsADefinedAnswer) {
+  std::vector<Beam> beams;
+  const BruteForceRays rays{asymmetricRoom()};
+  for (int i = 0; i < 360; ++i) {
+    const double bearing = i * kPi / 180;
+    const double range = rays.cast({-3, 2}, bearing).wall;
+    beams.push_back(
+        {bearing, std::min(range, 20.0), range < 20.0 ? BeamKind::hit : BeamKind::no_return});
+  }
+  const auto result = localizer().localize(RangeScan(std::move(beams)));
+  EXPECT_NE(result.status, LocalizationStatus::too_few_beams);
+  expectConsistent(result);
+}
+
+TEST_F(InAsymmetricRoom, TooFewBeams) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto all = [](double range, BeamKind kind) {
+    std::vector<Beam> beams;
+    for (int i = 0; i < 360; ++i) beams.push_back({i * kPi / 180, range, kind});
+    return RangeScan(std::move(beams));
+  };
+  for (const RangeScan& scan :
+       {RangeScan({}), RangeScan({{0, 2, BeamKind::hit}}), all(2.0, BeamKind::invalid),
+        all(20.0, BeamKind::no_return), all(kNan, BeamKind::hit), all(kInfinity, BeamKind::hit),
+        all(1e300, BeamKind::hit), all(-1.0, BeamKind::hit), all(0.0, BeamKind::hit)}) {
+    const auto result = localizer().localize(scan);
+    EXPECT_EQ(result.status, LocalizationStatus::too_few_beams);
+    expectConsistent(result);
+  }
+}
+
+TEST_F(InAsymmetricRoom, TheLeastNumberOfHitsIsSearchedFor) {
+  const RangeScan whole = simulatedScan(asymmetricRoom(), {1.5, 2, 0.3});
+  const auto withHits = [&](std::size_t hits) {
+    std::vector<Beam> beams = whole.beams();
+    for (std::size_t i = hits; i < beams.size(); ++i) beams[i].kind = BeamKind::invalid;
+    return localizer().localize(RangeScan(std::move(beams)));
+  };
+  EXPECT_EQ(withHits(14).status, LocalizationStatus::too_few_beams);
+  EXPECT_NE(withHits(15).status, LocalizationStatus::too_few_beams);
+  expectConsistent(withHits(15));
+}
+
+TEST_F(InAsymmetricRoom, RangesAndBearingsOfAnySizeAreAnswered) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> exponent(-300, 38), bearing(-1e6, 1e6);
+  for (int run = 0; run < 5; ++run) {
+    std::vector<Beam> beams = simulatedScan(asymmetricRoom(), {1.5, 2, 0.3}).beams();
+    for (std::size_t i = 0; i < beams.size(); i += 3) {
+      beams[i].range = std::pow(10.0, exponent(random));
+      beams[i].bearing = run == 0 ? 1e308 : bearing(random);
+    }
+    expectConsistent(localizer().localize(RangeScan(std::move(beams))));
+  }
+}
+
+TEST_F(InAsymmetricRoom, SeveralThreadsGetTheSameAnswers) {
+  std::vector<RangeScan> scans;
+  for (int i = 0; i < 4; ++i) {
+    scans.push_back(simulatedScan(asymmetricRoom(), {1.0 + 0.4 * i, 1.5, 0.8 * i}));
+  }
+  std::vector<LocalizationResult> alone, together(2 * scans.size());
+  for (const RangeScan& scan : scans) alone.push_back(localizer().localize(scan));
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < together.size(); ++i) {
+    threads.emplace_back([&, i] { together[i] = localizer().localize(scans[i % scans.size()]); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t i = 0; i < together.size(); ++i) {
+    expectSame(together[i], alone[i % scans.size()]);
+  }
+}
+
+TEST(GlobalLocalizer, AnswersDoNotDependOnThreadsOrTheRun) {
+  FloorPlanParams plan;
+  plan.rooms_per_side = 2;
+  plan.furniture_per_room = 2;
+  plan.unknown_share = 0.5;
+  const PolygonMap map = floorPlan(plan, 3);
+  GlobalLocalizerParams two = oneThread();
+  two.threads = 2;
+  const GlobalLocalizer a(map, oneThread()), b(map, two);
+  EXPECT_EQ(a.indexBytes(), b.indexBytes());
+  std::mt19937 random(3);
+  ScanOptions options;
+  options.sigma = 0.02;
+  options.short_share = 0.2;
+  for (const TPoint2D& p : randomFreePoints(map, 4, random)) {
+    const RangeScan scan = simulatedScan(map, {p.x, p.y, 0.4}, options);
+    const auto first = a.localize(scan);
+    expectSame(first, a.localize(scan));
+    expectSame(first, b.localize(scan));
+  }
+}
+
+class InASquareRoom : public ::testing::Test {
+ protected:
+  PolygonMap map_ = squareMap(5.0);
+  TPose2D truth_{1.4, 1.9, 0.35};
+  RangeScan scan_ = simulatedScan(map_, truth_);
+
+  /// The pose after quarter turns about the room's middle.
+  TPose2D turned(int quarters) const {
+    const double c = std::cos(quarters * kPi / 2), s = std::sin(quarters * kPi / 2);
+    const double x = truth_.x - 2.5, y = truth_.y - 2.5;
+    return {2.5 + c * x - s * y, 2.5 + s * x + c * y, truth_.phi + quarters * kPi / 2};
+  }
+};
+
+TEST_F(InASquareRoom, AllFourPosesAreFound) {
+  const auto result = GlobalLocalizer(map_, oneThread()).localize(scan_);
+  EXPECT_EQ(result.status, LocalizationStatus::ambiguous);
+  expectConsistent(result);
+  ASSERT_GE(result.hypotheses.size(), 4U);
+  LocalizationResult first_four = result;
+  first_four.hypotheses.resize(4);
+  for (int quarters = 0; quarters < 4; ++quarters) {
+    EXPECT_TRUE(holdsPose(first_four, turned(quarters))) << quarters;
+  }
+  EXPECT_NEAR(result.hypotheses[0].weight, result.hypotheses[3].weight, 0.01);
+}
+
+TEST_F(InASquareRoom, ItStaysAmbiguousIfOnlyOneHypothesisIsAskedFor) {
+  GlobalLocalizerParams params = oneThread();
+  params.max_hypotheses = 1;
+  const auto result = GlobalLocalizer(map_, params).localize(scan_);
+  EXPECT_EQ(result.status, LocalizationStatus::ambiguous);
+  ASSERT_EQ(result.hypotheses.size(), 1U);
+  EXPECT_EQ(result.hypotheses[0].weight, 1.0);
+}
+
+TEST_F(InASquareRoom, ACompassTellsTheFourApart) {
+  const GlobalLocalizer localizer(map_, oneThread());
+  for (int quarters = 0; quarters < 4; ++quarters) {
+    PosePrior prior;
+    prior.compass = PosePrior::Compass{turned(quarters).phi + 0.2, 0.4};
+    const auto result = localizer.localize(scan_, prior);
+    EXPECT_EQ(result.status, LocalizationStatus::unique);
+    expectFirstIs(result, turned(quarters));
+  }
+}
+
+TEST_F(InASquareRoom, ADiskTellsTheFourApart) {
+  const GlobalLocalizer localizer(map_, oneThread());
+  for (int quarters = 0; quarters < 4; ++quarters) {
+    PosePrior prior;
+    prior.near = PosePrior::Disk{turned(quarters).x + 0.1, turned(quarters).y, 0.4};
+    const auto result = localizer.localize(scan_, prior);
+    EXPECT_EQ(result.status, LocalizationStatus::unique);
+    expectFirstIs(result, turned(quarters));
+  }
+}
+
+TEST(GlobalLocalizer, OnRandomBuildingsTheTruthIsAmongTheAnswers) {
+  int found = 0, scans = 0;
+  for (std::uint32_t seed = 0; seed < 3; ++seed) {
+    FloorPlanParams plan;
+    plan.rooms_per_side = 2;
+    plan.furniture_per_room = 3;
+    plan.rotation = 0.3 * seed;
+    plan.offset = {100.0 * seed, -50.0};
+    const PolygonMap map = floorPlan(plan, seed);
+    const GlobalLocalizer localizer(map, oneThread());
+    std::mt19937 random(seed);
+    ScanOptions options;
+    options.sigma = 0.01;
+    for (const TPoint2D& p : randomFreePoints(map, 10, random)) {
+      const TPose2D truth(p.x, p.y, std::uniform_real_distribution<double>(-3, 3)(random));
+      const auto result = localizer.localize(simulatedScan(map, truth, options));
+      expectConsistent(result);
+      found += holdsPose(result, truth);
+      ++scans;
+    }
+  }
+  EXPECT_GE(found, scans - 1);
+}
+
+TEST(GlobalLocalizer, ATinyRoomOfANarrowMap) {
+  const PolygonMap map({freePolygon(rectangle(0, 0, 6, 4)),
+                        freePolygon(rectangle(6.52, 1, 6.57, 1.06)),  // holds no lattice point
+                        freePolygon(rectangle(8, 0, 8.4, 0.3))});
+  const GlobalLocalizer localizer(map, oneThread());
+  const TPose2D truth(8.18, 0.14, 0.2);
+  const auto result = localizer.localize(simulatedScan(map, truth));
+  expectConsistent(result);
+  EXPECT_TRUE(holdsPose(result, truth));
+}
+
+TEST(GlobalLocalizer, AMapWithoutALatticePointHasNoMatch) {
+  const PolygonMap map = mapOf(rectangle(0, 0, 0.02, 5.03));
+  GlobalLocalizerParams params = oneThread();
+  params.spacing = 0.7;
+  const GlobalLocalizer localizer(map, params);
+  const auto result = localizer.localize(simulatedScan(map, {0.01, 2, 0.3}));
+  EXPECT_EQ(result.statistics.positions, 0U);
+  EXPECT_EQ(result.status, LocalizationStatus::no_match);
+  expectConsistent(result);
+}
+
+TEST(GlobalLocalizer, RefusesAPriorThatSaysNothing) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  PosePrior compass;
+  compass.compass = PosePrior::Compass{0.0, 4.0};
+  EXPECT_THAT(complaintOf(compass), HasSubstr("compass tolerance"));
+  compass.compass = PosePrior::Compass{nan, 0.1};
+  EXPECT_THAT(complaintOf(compass), HasSubstr("compass heading"));
+  PosePrior disk;
+  disk.near = PosePrior::Disk{0.0, 0.0, -1.0};
+  EXPECT_THAT(complaintOf(disk), HasSubstr("near radius"));
+  disk.near = PosePrior::Disk{0.0, std::numeric_limits<double>::infinity(), 1.0};
+  EXPECT_THAT(complaintOf(disk), HasSubstr("near y"));
+}
+
+TEST(GlobalLocalizer, CanBeMoved) {
+  GlobalLocalizer built(squareMap(2.0), oneThread());
+  const std::size_t bytes = built.indexBytes();
+  const GlobalLocalizer moved(std::move(built));
+  EXPECT_EQ(moved.indexBytes(), bytes);
+  expectConsistent(moved.localize(simulatedScan(moved.map(), {0.7, 1.1, 0})));
+}
+
+TEST(GlobalLocalizerParams, ChecksNameTheField) {
+  EXPECT_EQ(complaintOf(GlobalLocalizerParams{}), "");
+  const auto complaint = [](const std::function<void(GlobalLocalizerParams&)>& spoil) {
+    GlobalLocalizerParams params;
+    spoil(params);
+    EXPECT_THROW(GlobalLocalizer(squareMap(1.0), params), InvalidParamsError);
+    return complaintOf(params);
+  };
+  EXPECT_THAT(complaint([](auto& p) { p.max_hypotheses = 0; }), HasSubstr("max_hypotheses"));
+  EXPECT_THAT(complaint([](auto& p) { p.threads = -1; }), HasSubstr("threads"));
+  for (const double bad : {0.0, -0.1, 11.0, std::nan("")}) {
+    EXPECT_THAT(complaint([bad](auto& p) { p.spacing = bad; }), HasSubstr("spacing"));
+  }
+  EXPECT_THAT(complaint([](auto& p) { p.cost.tau_long = -1; }), HasSubstr("tau_long"));
+  EXPECT_THAT(complaint([](auto& p) { p.signature.cap_open = 64; }), HasSubstr("cap_open"));
+  EXPECT_THAT(complaint([](auto& p) { p.search.margin = -1; }), HasSubstr("margin"));
+  EXPECT_THAT(complaint([](auto& p) { p.refinement.gate = 0; }), HasSubstr("gate"));
+  EXPECT_THAT(complaint([](auto& p) { p.hypotheses.merge_angle = 0; }), HasSubstr("merge_angle"));
+}
+
+TEST(LocalizationStatus, HasAName) {
+  EXPECT_STREQ(toString(LocalizationStatus::unique), "unique");
+  EXPECT_STREQ(toString(LocalizationStatus::ambiguous), "ambiguous");
+  EXPECT_STREQ(toString(LocalizationStatus::no_match), "no_match");
+  EXPECT_STREQ(toString(LocalizationStatus::too_few_beams), "too_few_beams");
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc::test
