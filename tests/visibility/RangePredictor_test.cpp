@@ -182,6 +182,47 @@ TEST(RangePredictor, GivesOnePoseWhatItGivesMany) {
   }
 }
 
+TEST(RangePredictor, GivesTheLinesThatAreHit) {
+  std::mt19937 random(23);
+  std::size_t beams_hit = 0, on_line = 0;
+  for (std::uint32_t seed = 0; seed < 8; ++seed) {
+    const PolygonMap map = test::floorPlan(test::randomParams(random), seed);
+    const BruteForceRays rays(map);
+    const Triangulation triangulation(map);
+    const RangePredictor predictor(triangulation, 0.5, 1);
+    std::vector<double> bearings = fan(90, -2.0, 5.0);
+    std::shuffle(bearings.begin(), bearings.end(), random);
+    const BeamPattern beams(bearings);
+    PredictedRanges ranges;
+    PredictedHits hits;
+    for (const TPose2D& pose : randomPoses(map, 30, random)) {
+      predictor.predict(pose, beams, ranges);
+      predictor.predict(pose, beams, hits);
+      ASSERT_EQ(hits.open, ranges.open);
+      for (std::size_t i = 0; i < bearings.size(); ++i) {
+        const double wall = ranges.wall[i];
+        if (std::isinf(wall)) {
+          EXPECT_EQ(hits.wall[i], kInfinity);
+          EXPECT_EQ(hits.along[i], 0.0F);
+          EXPECT_EQ(hits.across[i], 0.0F);
+          continue;
+        }
+        EXPECT_NEAR(hits.wall[i], wall, 1e-5 * wall);
+        const auto onLine = [&](double bearing) {
+          return 1.0 / (hits.along[i] * std::cos(bearing) + hits.across[i] * std::sin(bearing));
+        };
+        // Off a vertex, a beam a little beside hits the same line.
+        const double beside = bearings[i] + 1e-3;
+        const RayHit hit = rays.cast({pose.x, pose.y}, pose.phi + beside);
+        ++beams_hit;
+        on_line += std::abs(onLine(beside) - hit.wall) < 1e-3 * hit.wall ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(beams_hit, 10000U);
+  EXPECT_GT(static_cast<double>(on_line), 0.97 * static_cast<double>(beams_hit));
+}
+
 TEST(RangePredictor, PredictsFromUnknownSpaceThatNoCellCovers) {
   Ring left = wallRing({{0, 0}, {4, 0}, {4, 4}, {0, 4}}), right = left;
   for (TPoint2D& p : right.vertices) p.x += 40;
