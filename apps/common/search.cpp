@@ -2,6 +2,7 @@
 
 #include "Progress.h"
 #include "map_input.h"
+#include <mrpt_polyloc/localization/GlobalLocalizer.h>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <memory>
 #include <utility>
 
 namespace mrpt_polyloc::apps {
@@ -27,7 +29,20 @@ void checkMethod(const std::string& method) {
   throw UsageError("--method: unknown method '" + method + "'; there is: exhaustive");
 }
 
-LocalizedScan localizeOne(const GlobalLocalizer& localizer, const RangeScan& scan, std::size_t row,
+ScanLocalizer makeExhaustive(PolygonMap map, const SearchOptions& search) {
+  GlobalLocalizerParams params;
+  params.max_hypotheses = search.max_hypotheses;
+  params.threads = static_cast<int>(search.threads);
+  // Shared, for a std::function must be copyable.
+  const auto localizer = std::make_shared<const GlobalLocalizer>(std::move(map), params);
+  return {localizer->map(),
+          [localizer](const RangeScan& scan, const PosePrior& prior) {
+            return localizer->localize(scan, prior);
+          },
+          localizer->indexBytes()};
+}
+
+LocalizedScan localizeOne(const ScanLocalizer& localizer, const RangeScan& scan, std::size_t row,
                           const PosePrior& prior) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
@@ -45,7 +60,11 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
       ->type_name("FILE");
   options
       .add_option_function<std::string>(
-          "--method", checkMethod,
+          "--method",
+          [&search](const std::string& method) {
+            checkMethod(method);
+            search.method = method;
+          },
           "How to search: exhaustive [default]; certified, cells and exact are not built yet")
       ->type_name("NAME");
   addCount(
@@ -58,14 +77,11 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
       ->type_name("N");
 }
 
-GlobalLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search) {
-  GlobalLocalizerParams params;
-  params.max_hypotheses = search.max_hypotheses;
-  params.threads = static_cast<int>(search.threads);
-  return GlobalLocalizer(std::move(map), params);
+ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search) {
+  return makeExhaustive(std::move(map), search);  // the one that checkMethod() lets pass
 }
 
-std::vector<LocalizedScan> localizeScans(const GlobalLocalizer& localizer,
+std::vector<LocalizedScan> localizeScans(const ScanLocalizer& localizer,
                                          const std::vector<RangeScan>& scans,
                                          const std::vector<std::size_t>& rows,
                                          const PosePrior& prior, const SearchOptions& search) {

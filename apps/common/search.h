@@ -2,12 +2,12 @@
 
 #include "Cli.h"
 #include <mrpt_polyloc/geometry/PolygonMap.h>
-#include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 #include <mrpt_polyloc/localization/RangeScan.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,18 +17,26 @@ namespace mrpt_polyloc::apps {
 struct SearchOptions {
   std::string map;
   std::string scans;
+  std::string method = "exhaustive";
   std::uint64_t max_hypotheses = 20;
   /// Threads for the index, and for scans at once; 0 (not given): all cores for the index, and one
   /// scan after the other, so that the times of a scan mean something.
   std::uint64_t threads = 0;
 };
 
-/// Adds --map, --scans, --method (one of which is built, so it is only checked), --max-hypotheses
-/// and --threads.
+/// Adds --map, --scans, --method, --max-hypotheses and --threads.
 void addSearchOptions(CLI::App& options, SearchOptions& search);
 
-/// Prepares the search in a map.
-GlobalLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search);
+/// What a method is to the programs: a map made ready, and one scan in, all poses out.
+struct ScanLocalizer {
+  PolygonMap map;
+  /// Const, thread-safe, and independent of what was localized before.
+  std::function<LocalizationResult(const RangeScan&, const PosePrior&)> localize;
+  std::size_t index_bytes = 0;  ///< memory of what was prepared
+};
+
+/// Prepares the search of `search.method` in a map.
+ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search);
 
 /// A scan and what was found for it.
 struct LocalizedScan {
@@ -40,7 +48,7 @@ struct LocalizedScan {
 
 /// Localizes the given rows, in that order, `search.threads` at a time. Results do not depend on
 /// the number of threads.
-std::vector<LocalizedScan> localizeScans(const GlobalLocalizer& localizer,
+std::vector<LocalizedScan> localizeScans(const ScanLocalizer& localizer,
                                          const std::vector<RangeScan>& scans,
                                          const std::vector<std::size_t>& rows,
                                          const PosePrior& prior, const SearchOptions& search);

@@ -82,7 +82,7 @@ int evaluate(const Program& program, const Options& options) {
   const Inputs inputs = loadInputs(options);
 
   const auto start = std::chrono::steady_clock::now();
-  const GlobalLocalizer localizer =
+  const ScanLocalizer localizer =
       makeLocalizer(loadMapWithWarnings(program, options.search.map).map, options.search);
   const std::chrono::duration<double> build = std::chrono::steady_clock::now() - start;
 
@@ -100,11 +100,11 @@ int evaluate(const Program& program, const Options& options) {
   const Summary all = summarize(scores);
   std::optional<Summary> good;
   if (inputs.good) good = summarize(scores, &*inputs.good);
-  const IndexFigures index{build.count(), static_cast<double>(localizer.indexBytes()) / 1e6};
+  const IndexFigures index{build.count(), static_cast<double>(localizer.index_bytes) / 1e6};
 
   OutputFiles files;
   files.add(folder / "summary.json",
-            summaryJson(all, good ? &*good : nullptr, index, localizer.map()));
+            summaryJson(all, good ? &*good : nullptr, index, localizer.map));
   files.add(folder / "scans.csv", scansCsv(records));
   files.commit();
   std::cout << textSummary(all, good, index);

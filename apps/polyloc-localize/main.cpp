@@ -45,14 +45,14 @@ int localize(const Program& program, const LocalizeOptions& options) {
   RepairedMap loaded = loadMapWithWarnings(program, options.search.map);
   const std::vector<RangeScan> scans = loadScans(options.search.scans, options.file);
   const std::vector<std::size_t> rows = chosenRows(options, scans.size());
-  const GlobalLocalizer localizer = makeLocalizer(std::move(loaded.map), options.search);
+  const ScanLocalizer localizer = makeLocalizer(std::move(loaded.map), options.search);
   const std::vector<LocalizedScan> localized =
       localizeScans(localizer, scans, rows, options.prior, options.search);
 
   OutputFiles files;
   const std::string csv = hypothesisCsv(localized);
   if (!options.output.empty()) files.add(options.output, csv);
-  if (!options.svg.empty()) files.add(options.svg, scanPicture(localizer.map(), scans, localized));
+  if (!options.svg.empty()) files.add(options.svg, scanPicture(localizer.map, scans, localized));
   if (!options.pf_ini.empty()) files.add(options.pf_ini, iniText(options, localized));
   files.commit();
   if (options.output.empty()) std::cout << csv;
