@@ -1,0 +1,50 @@
+#pragma once
+
+#include <mrpt/math/TPoint2D.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace mrpt_polyloc {
+
+/// A visibility polygon around the origin, with its windows told from its walls by geometry alone.
+///
+/// An edge of which the farther end lies within `tolerance` of the ray through the nearer one is a
+/// window, or too narrow to matter; all others are walls, seen from their free side.
+class SeenPolygon {
+ public:
+  /// A wall as it is seen: on the line normal . x = distance, over the directions from `begin` to
+  /// the begin of the next wall.
+  struct Wall {
+    double begin;  ///< [rad], of `from`
+    mrpt::math::TPoint2D from, to;
+    mrpt::math::TPoint2D normal;  ///< of length 1, away from the origin
+    double distance;              ///< of the line from the origin [m], > 0
+  };
+
+  /// Vertices nearer than `tolerance` to the one before, or to the line through their neighbours,
+  /// are dropped. \throws InvalidParamsError with coordinates if fewer than three are left, if one
+  /// is not finite, or if the polygon does not run once, counterclockwise and without turning back,
+  /// around the origin (not star-shaped, or the origin outside or on the border). O(n).
+  SeenPolygon(const std::vector<mrpt::math::TPoint2D>& vertices, double tolerance);
+
+  /// In counterclockwise order.
+  const std::vector<Wall>& walls() const { return walls_; }
+  double radius() const { return radius_; }  ///< greatest distance of a vertex [m]
+
+  /// Whether the end of a wall is a corner or the near end of a window: a vertex of the map.
+  bool beginsAtVertex(std::size_t wall) const;
+  bool endsAtVertex(std::size_t wall) const;
+
+ private:
+  std::vector<Wall> walls_;
+  double tolerance_;
+  double radius_ = 0.0;
+};
+
+/// Whether two views agree: in every direction, the point seen in one lies within `limit` of the
+/// line seen in the other, but for sectors that are at most a few `limit` wide where the nearer
+/// view ends (a window that turns with the observer, a gap that is just closed). O(p + q).
+bool agree(const SeenPolygon& a, const SeenPolygon& b, double limit);
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,122 @@
+#include "tests/support/map_factories.h"
+#include "tests/support/random_maps.h"
+#include <mrpt_polyloc/geometry/angles.h>
+#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/localization/ExactLocalizer.h>
+#include <mrpt_polyloc/visibility/visibility_polygon.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+namespace mrpt_polyloc {
+namespace {
+
+std::vector<TPoint2D> seenFrom(const PolygonMap& map, const mrpt::math::TPose2D& pose) {
+  const Triangulation triangulation(map);
+  ViewExpander expander(triangulation, true);
+  auto polygon = visibilityPolygon(triangulation, expander.expand({pose.x, pose.y}));
+  const double c = std::cos(pose.phi), s = std::sin(pose.phi);
+  for (TPoint2D& v : polygon) {
+    const TPoint2D d(v.x - pose.x, v.y - pose.y);
+    v = {c * d.x + s * d.y, c * d.y - s * d.x};
+  }
+  return polygon;
+}
+
+bool holds(const LocalizationResult& result, const mrpt::math::TPose2D& pose) {
+  for (const Hypothesis& h : result.hypotheses) {
+    const auto& p = h.pose_map_robot;
+    if (std::hypot(p.x - pose.x, p.y - pose.y) < 1e-4 && angleBetween(p.phi, pose.phi) < 1e-4)
+      return true;
+  }
+  return false;
+}
+
+void expectFound(const PolygonMap& map, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> angle(-3, 3);
+  const ExactLocalizer localizer(map);
+  for (const TPoint2D& p : test::randomFreePoints(map, 20, random)) {
+    const mrpt::math::TPose2D pose(p.x, p.y, angle(random));
+    SCOPED_TRACE(std::to_string(p.x) + " " + std::to_string(p.y));
+    const auto view = seenFrom(map, pose);
+    const LocalizationResult all = localizer.localize(view);
+    EXPECT_TRUE(holds(all, pose));
+    PosePrior prior;
+    prior.compass = PosePrior::Compass{pose.phi, 0.0};
+    EXPECT_TRUE(holds(localizer.localize(view, prior), pose));
+    for (const Hypothesis& h : all.hypotheses) {  // each sees as much
+      EXPECT_NEAR(signedArea(seenFrom(map, h.pose_map_robot)), signedArea(view), 1e-3);
+    }
+  }
+}
+
+TEST(ExactLocalizer, FindsRandomPosesOfNamedMaps) {
+  for (const auto& [name, map] : test::namedMaps()) {
+    SCOPED_TRACE(name);
+    expectFound(map, 1);
+  }
+}
+
+TEST(ExactLocalizer, FindsRandomPosesOfFloorPlans) {
+  std::mt19937 random(2);
+  for (std::uint32_t seed = 0; seed < 8; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    test::FloorPlanParams params = test::randomParams(random);
+    params.crossing_walls = 0;
+    if (seed % 2 == 0) params.jitter = params.rotation = 0.0;
+    expectFound(test::floorPlan(params, seed), seed);
+  }
+}
+
+TEST(ExactLocalizer, ASquareHasFourHeadingsAndTheCompassChooses) {
+  const PolygonMap map = test::squareMap();
+  const ExactLocalizer localizer(map);
+  const auto view = seenFrom(map, {3, 4, 0});
+  EXPECT_EQ(localizer.localize(view).hypotheses.size(), 4U);
+  PosePrior prior;
+  prior.compass = PosePrior::Compass{0.0, 0.1};
+  const auto result = localizer.localize(view, prior);
+  EXPECT_EQ(result.status, LocalizationStatus::unique);
+  EXPECT_TRUE(holds(result, {3, 4, 0}));
+}
+
+TEST(ExactLocalizer, WhatIsNotSeenAnywhereHasNoMatch) {
+  const ExactLocalizer localizer(test::lRoomMap());
+  EXPECT_EQ(localizer.localize({{-50, -50}, {50, -50}, {50, 50}, {-50, 50}}).status,
+            LocalizationStatus::no_match);
+  EXPECT_EQ(localizer.localize({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}).status,
+            LocalizationStatus::no_match);
+}
+
+TEST(ExactLocalizer, RepeatedAndCollinearVerticesDoNoHarm) {
+  const PolygonMap map = test::lRoomMap();
+  std::vector<TPoint2D> padded;
+  const auto view = seenFrom(map, {1, 1, 0.4});
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    const TPoint2D a = view[i], b = view[(i + 1) % view.size()];
+    padded.insert(padded.end(), {a, a, a + (b - a) * 0.3});
+  }
+  EXPECT_TRUE(holds(ExactLocalizer(map).localize(padded), {1, 1, 0.4}));
+}
+
+TEST(ExactLocalizer, RefusesWhatCannotBeSeen) {
+  const ExactLocalizer localizer(test::squareMap());
+  using Polygon = std::vector<TPoint2D>;
+  EXPECT_THROW(localizer.localize(Polygon{{1, 0}, {0, 1}}), InvalidParamsError);
+  EXPECT_THROW(localizer.localize(Polygon{{1, 1}, {3, 1}, {3, 3}, {1, 3}}), InvalidParamsError);
+  EXPECT_THROW(localizer.localize(Polygon{{-1, 0}, {1, 0}, {0, 2}}), InvalidParamsError);
+  EXPECT_THROW(localizer.localize(Polygon{{-1, -1}, {-1, 1}, {1, 1}, {1, -1}}), InvalidParamsError);
+  EXPECT_THROW(localizer.localize(
+                   Polygon{{-1, -1}, {9, -1}, {9, 1}, {3, 1}, {3, 2}, {9, 2}, {9, 3}, {-1, 3}}),
+               InvalidParamsError);
+  EXPECT_THROW(localizer.localize(Polygon{{-1, -1}, {std::nan(""), -1}, {0, 1}}),
+               InvalidParamsError);
+  EXPECT_THROW(ExactLocalizer(test::squareMap(), {0.0, 20}), InvalidParamsError);
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc
