@@ -2,6 +2,8 @@
 
 #include "Progress.h"
 #include "map_input.h"
+#include "view_polygons.h"
+#include <mrpt_polyloc/localization/ExactLocalizer.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 
 #include <tbb/parallel_for.h>
@@ -19,14 +21,16 @@ namespace {
 constexpr std::uint64_t kMostThreads = 1024;
 constexpr std::uint64_t kMostHypotheses = 1'000'000;
 
+constexpr const char* kBuiltMethods = "exhaustive, exact";
+
 /// \throws UsageError if the method is unknown or not built yet.
 void checkMethod(const std::string& method) {
-  if (method == "exhaustive") return;
-  constexpr std::array<const char*, 3> planned = {"certified", "cells", "exact"};
+  if (method == "exhaustive" || method == "exact") return;
+  constexpr std::array<const char*, 2> planned = {"certified", "cells"};
   if (std::find(planned.begin(), planned.end(), method) != planned.end()) {
-    throw UsageError("--method " + method + " is not built yet; there is: exhaustive");
+    throw UsageError("--method " + method + " is not built yet; there is: " + kBuiltMethods);
   }
-  throw UsageError("--method: unknown method '" + method + "'; there is: exhaustive");
+  throw UsageError("--method: unknown method '" + method + "'; there is: " + kBuiltMethods);
 }
 
 ScanLocalizer makeExhaustive(PolygonMap map, const SearchOptions& search) {
@@ -42,6 +46,17 @@ ScanLocalizer makeExhaustive(PolygonMap map, const SearchOptions& search) {
           localizer->indexBytes()};
 }
 
+ScanLocalizer makeExact(const PolygonMap& map, const SearchOptions& search) {
+  ExactLocalizerParams params;
+  params.max_hypotheses = search.max_hypotheses;
+  const auto localizer = std::make_shared<const ExactLocalizer>(map, params);
+  return {map,
+          [localizer](const RangeScan& scan, const PosePrior& prior) {
+            return localizer->localize(viewPolygon(scan), prior);
+          },
+          localizer->bytes()};
+}
+
 LocalizedScan localizeOne(const ScanLocalizer& localizer, const RangeScan& scan, std::size_t row,
                           const PosePrior& prior) {
   using Clock = std::chrono::steady_clock;
@@ -55,7 +70,8 @@ LocalizedScan localizeOne(const ScanLocalizer& localizer, const RangeScan& scan,
 
 void addSearchOptions(CLI::App& options, SearchOptions& search) {
   addText(options, "--map", search.map, kMapFormats)->required()->type_name("MAP");
-  addText(options, "--scans", search.scans, "The scans: .rawlog or CARMEN .log/.clf, plain or gz")
+  addText(options, "--scans", search.scans,
+          "The scans: .rawlog or CARMEN .log/.clf, plain or gz; for --method exact .wkt")
       ->required()
       ->type_name("FILE");
   options
@@ -65,7 +81,9 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
             checkMethod(method);
             search.method = method;
           },
-          "How to search: exhaustive [default]; certified, cells and exact are not built yet")
+          "How to search: exhaustive [default], exact (a polygon seen without any noise); "
+          "certified "
+          "and cells are not built yet")
       ->type_name("NAME");
   addCount(
       options, "--max-hypotheses", search.max_hypotheses, 1, kMostHypotheses,
@@ -78,7 +96,11 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
 }
 
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search) {
-  return makeExhaustive(std::move(map), search);  // the one that checkMethod() lets pass
+  return search.method == "exact" ? makeExact(map, search) : makeExhaustive(std::move(map), search);
+}
+
+std::vector<RangeScan> loadSearchedScans(const SearchOptions& search, const ScanFileOptions& file) {
+  return search.method == "exact" ? loadViewPolygons(search.scans) : loadScans(search.scans, file);
 }
 
 std::vector<LocalizedScan> localizeScans(const ScanLocalizer& localizer,

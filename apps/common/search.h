@@ -4,6 +4,7 @@
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 #include <mrpt_polyloc/localization/RangeScan.h>
+#include <mrpt_polyloc/mrpt_bridge/scan_files.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -37,6 +38,11 @@ struct ScanLocalizer {
 
 /// Prepares the search of `search.method` in a map.
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search);
+
+/// What the method searches for: the scans of a log or, for `exact`, the polygons of a WKT file
+/// (see loadViewPolygons()).
+std::vector<RangeScan> loadSearchedScans(const SearchOptions& search,
+                                         const ScanFileOptions& file = {});
 
 /// A scan and what was found for it.
 struct LocalizedScan {

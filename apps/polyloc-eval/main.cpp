@@ -9,7 +9,6 @@
 #include <mrpt_polyloc/evaluation/Summary.h>
 #include <mrpt_polyloc/evaluation/summary_json.h>
 #include <mrpt_polyloc/evaluation/truth.h>
-#include <mrpt_polyloc/mrpt_bridge/scan_files.h>
 
 #include <chrono>
 #include <filesystem>
@@ -56,7 +55,7 @@ struct Inputs {
 
 Inputs loadInputs(const Options& options) {
   Inputs inputs;
-  inputs.scans = loadScans(options.search.scans);
+  inputs.scans = loadSearchedScans(options.search);
   inputs.truth = matchTruth(inputs.scans, loadTum(options.truth), options.truth);
   if (!options.good.empty()) inputs.good = loadRows(options.good, inputs.scans.size());
   return inputs;

@@ -9,7 +9,6 @@
 #include "particle_filter_ini.h"
 #include "scan_picture.h"
 #include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/mrpt_bridge/scan_files.h>
 
 #include <iostream>
 #include <string>
@@ -43,7 +42,7 @@ int localize(const Program& program, const LocalizeOptions& options) {
     requireWritable(path);
   }
   RepairedMap loaded = loadMapWithWarnings(program, options.search.map);
-  const std::vector<RangeScan> scans = loadScans(options.search.scans, options.file);
+  const std::vector<RangeScan> scans = loadSearchedScans(options.search, options.file);
   const std::vector<std::size_t> rows = chosenRows(options, scans.size());
   const ScanLocalizer localizer = makeLocalizer(std::move(loaded.map), options.search);
   const std::vector<LocalizedScan> localized =

@@ -246,6 +246,58 @@ TEST_F(PolylocLocalize, AnUnknownSensorLabelFails) {
   EXPECT_THAT(outcome.err, HasSubstr("REAR"));
 }
 
+/// A corridor with two equal niches at its ends, and what is seen from the bottom of either: the
+/// corridor's far wall through the niche's mouth.
+TEST_F(PolylocLocalize, ExactlyTwoNichesCannotBeToldApart) {
+  const std::string map =
+      write("niches.wkt",
+            "POLYGON ((0 0, 12 0, 12 2, 11 2, 11 5, 10 5, 10 2, 6 2, 6 2.7, 5 2.7, 5 2, 2 2, 2 5, "
+            "1 5, 1 2, 0 2, 0 0))\n");
+  // From (1.5, 4): the mouth's corners are 2 m below, the far wall 4 m.
+  const std::string view =
+      write("view.wkt", "\nPOLYGON ((-1 -4, 1 -4, 0.5 -2, 0.5 1, -0.5 1, -0.5 -2, -1 -4))\n");
+  const auto posesOf = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"--map", map, "--scans", view, "--method", "exact"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run("polyloc-localize", arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    std::vector<std::string> poses;
+    const std::vector<std::string> lines = linesOf(outcome.out);
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      const std::vector<std::string> fields = fieldsOf(lines[i]);
+      EXPECT_EQ(fields[2], "ambiguous");
+      poses.push_back(fields[4] + " " + fields[5] + " " + fields[6]);
+    }
+    return poses;
+  };
+  const auto both = ElementsAre("1.5000 4.0000 0.000", "10.5000 4.0000 0.000");
+  EXPECT_THAT(posesOf({"--compass", "0"}), both);
+  EXPECT_THAT(posesOf({}), both);
+
+  write("truth.tum", "0 10.5 4 0 0 0 0 1\n");
+  const Outcome outcome = run("polyloc-eval", {"--map", map, "--scans", view, "--method", "exact",
+                                               "--truth", path("truth.tum"), "-o", path("out")});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(readFile(path("out/summary.json")), HasSubstr("\"top5\": 1.0"));
+}
+
+TEST_F(PolylocLocalize, PolygonsThatCannotBeSeenFail) {
+  const auto expectFailure = [&](const std::string& text, const std::string& reason) {
+    const std::string view = write("view.wkt", text);
+    const Outcome outcome =
+        run("polyloc-localize", {"--map", roomFile(), "--scans", view, "--method", "exact"});
+    EXPECT_EQ(outcome.code, 1) << text;
+    EXPECT_THAT(outcome.err, HasSubstr(reason));
+    EXPECT_THAT(outcome.out, IsEmpty());
+  };
+  expectFailure("", "holds no polygon");
+  expectFailure("\nPOLYGON ((1 1, 2 1, 2 2, 1 x))\n", "line 2");
+  expectFailure("\nPOLYGON EMPTY\n", "line 2: expected one POLYGON");
+  expectFailure("POLYGON ((-3 -3, 3 -3, 3 3, -3 3), (1 1, 1 2, 2 2))", "with holes");
+  expectFailure("POLYGON ((0 0, 3 0, 3 3))", "at the robot itself");
+  expectFailure("POLYGON ((1 1, 3 1, 3 3, 1 3))", "origin");
+}
+
 TEST_F(PolylocLocalize, UnwritableOutputFailsBeforeTheSearch) {
   const std::string room = roomFile();
   for (const char* option : {"-o", "--svg", "--pf-ini"}) {

@@ -110,7 +110,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadUsage{"no_scans", "polyloc-localize", {"--map", "a.wkt"}, "--scans is required"},
         localize("certified", {"--method", "certified"}, "--method certified is not built yet"),
         localize("cells", {"--method", "cells"}, "--method cells is not built yet"),
-        localize("exact", {"--method", "exact"}, "--method exact is not built yet"),
         localize("unknown_method", {"--method", "best"}, "unknown method 'best'"),
         localize("index", {"--index", "a.idx"}, "--index is not built yet"),
         localize("time_budget", {"--time-budget", "50"}, "--time-budget needs --method certified"),
