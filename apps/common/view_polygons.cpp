@@ -2,6 +2,8 @@
 
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/geometry/wkt.h>
+#include <mrpt_polyloc/localization/ExactLocalizer.h>
+#include <mrpt_polyloc/localization/SeenPolygon.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +34,11 @@ std::vector<TPoint2D> parseLine(const std::string& line, std::size_t number,
   for (const TPoint2D& vertex : vertices) {
     // A beam without length would get lost.
     if (vertex.norm() == 0.0) throw FormatError(path, place, "a vertex at the robot itself");
+  }
+  try {
+    const SeenPolygon check(vertices, ExactLocalizerParams{}.tolerance);
+  } catch (const InvalidParamsError& error) {
+    throw FormatError(path, place, error.what());
   }
   return vertices;
 }
