@@ -1,3 +1,4 @@
+#include "tests/support/BruteForceRays.h"
 #include "tests/support/map_factories.h"
 #include "tests/support/random_maps.h"
 #include <mrpt_polyloc/geometry/angles.h>
@@ -70,6 +71,57 @@ TEST(ExactLocalizer, FindsRandomPosesOfFloorPlans) {
     if (seed % 2 == 0) params.jitter = params.rotation = 0.0;
     expectFound(test::floorPlan(params, seed), seed);
   }
+}
+
+/// Whether rays from p in the map are as long as rays from the origin in the polygon, but for a few
+/// that graze a vertex. So many rays, for far teeth of a comb are seen in sectors below a degree.
+bool looksAlike(const test::BruteForceRays& map, const TPoint2D& p,
+                const test::BruteForceRays& view) {
+  int different = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double angle = 0.0123 + kTwoPi * i / 4000;
+    if (different > 4) break;
+    different += std::abs(map.cast(p, angle).wall - view.cast({0, 0}, angle).wall) > 1e-4 ? 1 : 0;
+  }
+  return different <= 4;
+}
+
+TEST(ExactLocalizer, AnswersAreThoseOfBruteForceOverAllPairsOfVertices) {
+  std::mt19937 random(3);
+  for (const auto& [name, map] : test::namedMaps()) {
+    SCOPED_TRACE(name);
+    const ExactLocalizer localizer(map);
+    const test::BruteForceRays map_rays(map);
+    for (const TPoint2D& p : test::randomFreePoints(map, 4, random)) {
+      const auto view = seenFrom(map, {p.x, p.y, 0});
+      const test::BruteForceRays view_rays(PolygonMap({{wallRing(view), {}}}));
+      PosePrior prior;
+      prior.compass = PosePrior::Compass{0.0, 0.0};
+      const LocalizationResult result = localizer.localize(view, prior);
+      for (const Hypothesis& h : result.hypotheses) {
+        EXPECT_TRUE(looksAlike(map_rays, {h.pose_map_robot.x, h.pose_map_robot.y}, view_rays));
+      }
+      for (const Ring* ring : map.rings()) {
+        for (const TPoint2D& vertex : ring->vertices) {
+          for (const TPoint2D& seen : view) {
+            const TPoint2D q = vertex - seen;
+            if (!map.contains(q) || !looksAlike(map_rays, q, view_rays)) continue;
+            EXPECT_TRUE(holds(result, {q.x, q.y, 0})) << q.x << " " << q.y;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(ExactLocalizer, TakesRoundingButNoMillimetre) {
+  const PolygonMap map = test::lRoomMap();
+  const ExactLocalizer localizer(map);
+  auto view = seenFrom(map, {1, 1, 0.4});
+  for (TPoint2D& v : view) v = {std::round(v.x * 2e6) / 2e6, std::round(v.y * 2e6) / 2e6};
+  EXPECT_TRUE(holds(localizer.localize(view), {1, 1, 0.4}));
+  view[0] = view[0] * 1.001;
+  EXPECT_EQ(localizer.localize(view).status, LocalizationStatus::no_match);
 }
 
 TEST(ExactLocalizer, ASquareHasFourHeadingsAndTheCompassChooses) {
