@@ -43,12 +43,10 @@ Edges edgesOf(const Triangulation& t, bool boundary) {
     const Triangulation::Face& face = t.faces()[f];
     if (!face.is_free) continue;
     for (std::size_t i = 0; i < 3; ++i) {
-      const bool is_boundary =
-          face.passage[i] != Passage::clear || !isFree(t, face.neighbor[i]);
+      const bool is_boundary = face.passage[i] != Passage::clear || !isFree(t, face.neighbor[i]);
       // Dividing edges once, from one of their two sides.
       const bool is_wanted =
-          boundary ? is_boundary
-                   : !is_boundary && face.neighbor[i] > static_cast<std::int32_t>(f);
+          boundary ? is_boundary : !is_boundary && face.neighbor[i] > static_cast<std::int32_t>(f);
       if (is_wanted) edges.emplace_back(face.vertex[(i + 1) % 3], face.vertex[(i + 2) % 3]);
     }
   }
@@ -220,8 +218,8 @@ std::int32_t VisibilityCells::locate(const TPoint2D& point) const {
   const BoundingBox& box = triangulation_.box();
   const auto column = static_cast<std::size_t>((point.x - box.min.x) / bucket_size_);
   const auto row = static_cast<std::size_t>((point.y - box.min.y) / bucket_size_);
-  const std::size_t bucket = std::min(row, bucket_rows_ - 1) * bucket_columns_ +
-                             std::min(column, bucket_columns_ - 1);
+  const std::size_t bucket =
+      std::min(row, bucket_rows_ - 1) * bucket_columns_ + std::min(column, bucket_columns_ - 1);
   // Rounded polygons may leave gaps between them: the cell that misses the point least.
   std::int32_t nearest = kNone;
   double least = std::numeric_limits<double>::infinity();

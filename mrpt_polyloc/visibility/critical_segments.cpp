@@ -175,8 +175,9 @@ class Finder {
     if (!stop.exists() || isAlongBoundary(stop, sector)) return;
     const int side =
         turn(u, v, sector.first) != 0 ? turn(u, v, sector.first) : turn(u, v, sector.last);
-    CriticalSegment segment{u,        v, stop.right, stop.left, side > 0,
-                            static_cast<std::uint32_t>(found_.flipped.size()), 0};
+    CriticalSegment segment{u,         v,        stop.right,
+                            stop.left, side > 0, static_cast<std::uint32_t>(found_.flipped.size()),
+                            0};
     addFlipped(u, v, side);
     segment.flipped_count =
         static_cast<std::uint32_t>(found_.flipped.size()) - segment.first_flipped;

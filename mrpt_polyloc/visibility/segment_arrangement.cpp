@@ -31,7 +31,9 @@ constexpr int kBoundary = -2;
 constexpr std::int32_t kUnseen = -2;
 constexpr std::int32_t kOutside = -1;
 
-Point toPoint(const TPoint2D& p) { return {p.x, p.y}; }
+Point toPoint(const TPoint2D& p) {
+  return {p.x, p.y};
+}
 
 Segment exactSegment(const CriticalSegment& s, const std::vector<TPoint2D>& vertices) {
   const auto at = [&](std::int32_t v) { return toPoint(vertices[static_cast<std::size_t>(v)]); };
@@ -109,8 +111,7 @@ ArrangedFaces flatten(Arrangement& arrangement, const std::vector<Segment>& segm
       for (const int id : h->curve().data()) {
         if (id < 0) continue;
         const Segment& s = segments[static_cast<std::size_t>(id)];
-        const bool segment_rises =
-            CGAL::compare_xy(s.source(), s.target()) == CGAL::SMALLER;
+        const bool segment_rises = CGAL::compare_xy(s.source(), s.target()) == CGAL::SMALLER;
         flat.windows.push_back(rises == segment_rises ? id + 1 : -(id + 1));
       }
     });

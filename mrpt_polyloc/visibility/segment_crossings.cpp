@@ -16,8 +16,13 @@ struct Span {
 Span spanOf(TPoint2D a, TPoint2D b, const TPoint2D& origin) {
   if (b.x < a.x) std::swap(a, b);
   const auto f = [](double d) { return static_cast<float>(d); };
-  return {f(a.x - origin.x), f(a.y - origin.y), f(b.x - a.x), f(b.y - a.y), f(b.x - origin.x),
-          f(std::min(a.y, b.y) - origin.y), f(std::max(a.y, b.y) - origin.y)};
+  return {f(a.x - origin.x),
+          f(a.y - origin.y),
+          f(b.x - a.x),
+          f(b.y - a.y),
+          f(b.x - origin.x),
+          f(std::min(a.y, b.y) - origin.y),
+          f(std::max(a.y, b.y) - origin.y)};
 }
 
 /// Products of signed areas: negative where an end of one lies on either side of the other.
