@@ -183,7 +183,8 @@ TEST(VisibilityCells, AreFoundAsByBruteForce) {
       const std::int32_t found = cells.locate(p);
       EXPECT_EQ(found != VisibilityCells::kNone, map.contains(p));
       for (std::size_t c = 0; c < cells.size(); ++c) {
-        if (holds(c, p)) EXPECT_EQ(found, static_cast<std::int32_t>(c));
+        if (!holds(c, p)) continue;
+        EXPECT_EQ(found, static_cast<std::int32_t>(c));
       }
     }
     const double nan = std::nan("");
