@@ -4,12 +4,14 @@
 #include "../common/OutputFiles.h"
 #include "../common/map_input.h"
 #include "../common/map_picture.h"
+#include "cell_report.h"
 #include "map_report.h"
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/geometry/polygon_files.h>
 
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,7 @@ struct Options {
   std::string output;
   std::string svg;
   bool check = false;
+  bool cells = false;
   bool json = false;
 };
 
@@ -33,9 +36,8 @@ void addOptions(CLI::App& cli, Options& options) {
   addText(cli, "--svg", options.svg, "Draw the map")->type_name("PIC.svg");
   cli.add_flag("--check", options.check,
                "List the defects of the map; exit 1 if there is any, repaired or not");
-  cli.add_flag_callback(
-      "--cells", [] { throw UsageError("--cells is not built yet"); },
-      "Statistics of the visibility cells (not built yet)");
+  cli.add_flag("--cells", options.cells,
+               "Statistics of the visibility cells; --svg draws them; exit 1 if they are too many");
   cli.add_flag("--json", options.json, "Print the report as JSON");
 }
 
@@ -57,22 +59,26 @@ std::string outputText(const std::string& path, const PolygonMap& map) {
   }
 }
 
-void writeOutputs(const Options& options, const PolygonMap& map) {
+void writeOutputs(const Options& options, const PolygonMap& map, const CellReport* cells) {
   OutputFiles files;
   if (!options.output.empty()) files.add(options.output, outputText(options.output, map));
   if (!options.svg.empty()) {
     SvgCanvas canvas(map.boundingBox());
     drawMap(canvas, map);
+    if (cells != nullptr) drawCells(canvas, *cells);
     files.add(options.svg, canvas.text());
   }
   files.commit();
 }
 
-void report(const Options& options, const RepairedMap& loaded) {
+void report(const Options& options, const RepairedMap& loaded, const CellReport* cells) {
   if (options.json) {
-    std::cout << jsonReport(loaded).dump(2) << '\n';
+    nlohmann::ordered_json json = jsonReport(loaded);
+    if (cells != nullptr) json.update(jsonReport(*cells));
+    std::cout << json.dump(2) << '\n';
   } else {
-    std::cout << (options.check ? defectList(loaded.defects) : "") << textReport(loaded.map);
+    std::cout << (options.check ? defectList(loaded.defects) : "") << textReport(loaded.map)
+              << (cells != nullptr ? textReport(*cells) : "");
   }
 }
 
@@ -93,8 +99,11 @@ int convert(const Program& program, const Options& options) {
   requireWritable(options.output);
   requireWritable(options.svg);
   const RepairedMap loaded = load(program, options);
-  writeOutputs(options, loaded.map);
-  report(options, loaded);
+  std::optional<CellReport> cells;
+  if (options.cells) cells.emplace(loaded.map);
+  const CellReport* shown = cells ? &*cells : nullptr;
+  writeOutputs(options, loaded.map, shown);
+  report(options, loaded, shown);
   return options.check && !loaded.defects.empty() ? kFailed : kDone;
 }
 

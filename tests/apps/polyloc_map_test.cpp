@@ -170,5 +170,18 @@ TEST_F(PolylocMap, OpenEdgesDoNotGoIntoWkt) {
   EXPECT_FALSE(std::filesystem::exists(path("out.wkt")));
 }
 
+TEST_F(PolylocMap, CountsAndDrawsTheCells) {
+  // An L: its reflex vertex hides four vertices, each behind a segment of its own.
+  const std::string file = write("l.wkt", "POLYGON ((0 0, 12 0, 12 4, 5 4, 5 10, 0 10, 0 0))\n");
+  const Outcome outcome = map({file, "--cells", "--json", "--svg", path("l.svg")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json report = json::parse(outcome.out);
+  EXPECT_EQ(report["cells"], 5);
+  EXPECT_EQ(report["windows"], 4);
+  EXPECT_GE(report["cell_build_s"], 0.0);
+  EXPECT_GT(report["cell_mb"], 0.0);
+  EXPECT_THAT(readFile(path("l.svg")), HasSubstr("critical segment"));
+}
+
 }  // namespace
 }  // namespace mrpt_polyloc::test

@@ -97,11 +97,9 @@ BadUsage simulation(const char* name, std::vector<std::string> more, const char*
 
 INSTANTIATE_TEST_SUITE_P(
     Map, UsageErrors,
-    testing::Values(
-        BadUsage{"map_cells", "polyloc-map", {"a.wkt", "--cells"}, "--cells is not built yet"},
-        BadUsage{"map_two_inputs", "polyloc-map", {"a.wkt", "b.wkt"}, "b.wkt"},
-        BadUsage{"map_empty_input", "polyloc-map", {""}, "empty"},
-        BadUsage{"map_output_without_name", "polyloc-map", {"a.wkt", "-o"}, "-o"}),
+    testing::Values(BadUsage{"map_two_inputs", "polyloc-map", {"a.wkt", "b.wkt"}, "b.wkt"},
+                    BadUsage{"map_empty_input", "polyloc-map", {""}, "empty"},
+                    BadUsage{"map_output_without_name", "polyloc-map", {"a.wkt", "-o"}, "-o"}),
     [](const auto& tested) { return tested.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(

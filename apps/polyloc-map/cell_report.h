@@ -1,0 +1,36 @@
+#pragma once
+
+#include "../common/SvgCanvas.h"
+#include <mrpt_polyloc/visibility/VisibilityCells.h>
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <string>
+
+namespace mrpt_polyloc::apps {
+
+/// The visibility cells of a map and what they took. \throws CellBudgetError
+struct CellReport {
+  explicit CellReport(const PolygonMap& map) : CellReport(map, std::chrono::steady_clock::now()) {}
+
+  VisibilityCells cells;
+  double build_s;  ///< wall time
+
+ private:
+  using Time = std::chrono::steady_clock::time_point;
+  CellReport(const PolygonMap& map, Time start)
+      : cells(map),
+        build_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()) {}
+};
+
+/// {cells, windows, cell_build_s, cell_mb}.
+nlohmann::ordered_json jsonReport(const CellReport& report);
+
+/// The same, one a line.
+std::string textReport(const CellReport& report);
+
+/// The critical segments, as thin lines.
+void drawCells(SvgCanvas& canvas, const CellReport& report);
+
+}  // namespace mrpt_polyloc::apps
