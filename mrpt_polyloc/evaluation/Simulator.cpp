@@ -1,5 +1,5 @@
 #include <mrpt_polyloc/evaluation/Simulator.h>
-#include <mrpt_polyloc/geometry/Triangulation.h>
+#include <mrpt_polyloc/geometry/FreeSpaceSampler.h>
 #include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/errors.h>
 
@@ -7,78 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 
 namespace mrpt_polyloc {
 namespace {
 
 constexpr double kDegree = kPi / 180.0;
-
-/// Random numbers from mt19937_64, which the standard fixes, through transformations of our own,
-/// which it leaves to the library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-
-  /// Uniform in [0, 1).
-  double unit() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
-  double uniform(double low, double high) { return low + (high - low) * unit(); }
-  /// Standard normal, by Box and Muller; two draws each time, so that streams stay aligned.
-  double normal() {
-    const double radius = std::sqrt(-2.0 * std::log1p(-unit()));
-    return radius * std::cos(2.0 * kPi * unit());
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
-
-/// Uniform over the free space, by area.
-class FreeSpaceSampler {
- public:
-  explicit FreeSpaceSampler(const PolygonMap& map) : triangulation_(map) {
-    double area = 0.0;
-    for (std::size_t i = 0; i < triangulation_.faces().size(); ++i) {
-      if (!triangulation_.faces()[i].is_free) continue;
-      const auto [a, b, c] = corners(i);
-      area += 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
-      faces_.push_back(i);
-      area_until_.push_back(area);
-    }
-    if (faces_.empty()) throw InvalidMapError("the map has no free space");
-  }
-
-  TPoint2D draw(Random& random) const {
-    const double at = random.uniform(0.0, area_until_.back());
-    const auto found = std::upper_bound(area_until_.begin(), area_until_.end(), at);
-    const std::size_t index =
-        std::min(static_cast<std::size_t>(found - area_until_.begin()), faces_.size() - 1);
-    const auto [a, b, c] = corners(faces_[index]);
-    double u = random.unit(), v = random.unit();
-    if (u + v > 1.0) {  // the other half of the parallelogram, folded back
-      u = 1.0 - u;
-      v = 1.0 - v;
-    }
-    return a + (b - a) * u + (c - a) * v;
-  }
-
- private:
-  struct Corners {
-    TPoint2D a, b, c;
-  };
-  Corners corners(std::size_t face) const {
-    const auto& vertex = triangulation_.faces()[face].vertex;
-    const auto at = [&](std::size_t i) {
-      return triangulation_.vertices()[static_cast<std::size_t>(vertex[i])];
-    };
-    return {at(0), at(1), at(2)};
-  }
-
-  Triangulation triangulation_;
-  std::vector<std::size_t> faces_;
-  std::vector<double> area_until_;  ///< of the free faces up to and with this one [m2]
-};
 
 TPoint2D drawPlace(const FreeSpaceSampler& sampler, const WallSegments& walls, double clearance,
                    Random& random) {
