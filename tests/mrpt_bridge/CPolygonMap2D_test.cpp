@@ -7,8 +7,10 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
 #include <random>
@@ -122,6 +124,24 @@ TEST(PolygonMap2D, ComplainsOfABadIni) {
   EXPECT_ANY_THROW(make(iniFor(good.path(), "sigmma=0.2")));
   EXPECT_ANY_THROW(make(iniFor(good.path(), "sigma=-1")));
   EXPECT_NO_THROW(make(iniFor(good.path())));
+}
+
+TEST(PolygonMap2D, RefusesWhatANewerVersionStored) {
+  registerClasses();
+  for (const int newer : {0, 1}) {
+    mrpt::io::CMemoryStream stream;
+    auto archive = mrpt::serialization::archiveFrom(stream);
+    archive << CPolygonMap2D(room());
+    // MRPT writes the length of the class's name in one byte, the name, and then the version.
+    auto* bytes = static_cast<char*>(stream.getRawBufferData());
+    bytes[1 + std::string("mrpt_polyloc::CPolygonMap2D").size()] = static_cast<char>(newer);
+    stream.Seek(0);
+    if (newer == 0) {
+      EXPECT_NO_THROW(archive.ReadObject());
+    } else {
+      EXPECT_ANY_THROW(archive.ReadObject());
+    }
+  }
 }
 
 TEST(PolygonMap2D, DistanceIsThatToTheNearestWall) {
