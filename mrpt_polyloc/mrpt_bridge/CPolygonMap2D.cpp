@@ -1,0 +1,183 @@
+#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/geometry/geojson.h>
+#include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
+#include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
+
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <utility>
+
+MAP_DEFINITION_REGISTER("mrpt_polyloc::CPolygonMap2D,polygonMap2D", mrpt_polyloc::CPolygonMap2D)
+
+namespace mrpt_polyloc {
+
+using mrpt::obs::CObservation2DRangeScan;
+
+IMPLEMENTS_SERIALIZABLE(CPolygonMap2D, mrpt::maps::CMetricMap, mrpt_polyloc)
+
+struct CPolygonMap2D::Content {
+  explicit Content(PolygonMap polygons) : map(std::move(polygons)), predictor(Triangulation(map)) {}
+  PolygonMap map;
+  RangePredictor predictor;
+};
+
+namespace {
+
+/// Calls visit(a, b, kind, is_beyond) for all edges.
+template <class Visitor>
+void forEachEdge(const PolygonMap& map, const Visitor& visit) {
+  for (const Ring* ring : map.rings()) {
+    for (std::size_t i = 0; i < ring->size(); ++i) {
+      visit(ring->vertices[i], ring->vertices[(i + 1) % ring->size()], ring->kinds[i], false);
+    }
+  }
+  for (const Polyline& line : map.wallsBeyond()) {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      visit(line[i], line[i + 1], EdgeKind::wall, true);
+    }
+  }
+}
+
+double squaredDistance(const TPoint2D& p, const TPoint2D& a, const TPoint2D& b) {
+  const TPoint2D edge = b - a, to_p = p - a;
+  const double norm = edge.x * edge.x + edge.y * edge.y;
+  const double t = norm > 0.0 ? (to_p.x * edge.x + to_p.y * edge.y) / norm : 0.0;
+  const TPoint2D nearest = a + edge * std::clamp(t, 0.0, 1.0);
+  return (p.x - nearest.x) * (p.x - nearest.x) + (p.y - nearest.y) * (p.y - nearest.y);
+}
+
+}  // namespace
+
+void CPolygonMap2D::setMap(PolygonMap map) {
+  content_ = std::make_shared<const Content>(std::move(map));
+}
+
+const PolygonMap* CPolygonMap2D::map() const {
+  return content_ ? &content_->map : nullptr;
+}
+
+std::string CPolygonMap2D::asString() const {
+  if (!content_) return "CPolygonMap2D, empty";
+  return "CPolygonMap2D, " + std::to_string(content_->map.vertexCount()) + " vertices";
+}
+
+bool CPolygonMap2D::internal_insertObservation(const mrpt::obs::CObservation&,
+                                               const std::optional<const mrpt::poses::CPose3D>&) {
+  return false;
+}
+
+double CPolygonMap2D::internal_computeObservationLikelihood(
+    const mrpt::obs::CObservation& observation, const mrpt::poses::CPose3D& taken_from) const {
+  const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation);
+  if (!scan || !content_) return 0.0;
+  return scanLogLikelihood(content_->predictor, *scan,
+                           {taken_from.x(), taken_from.y(), taken_from.yaw()}, likelihoodOptions);
+}
+
+bool CPolygonMap2D::internal_canComputeObservationLikelihood(
+    const mrpt::obs::CObservation& observation) const {
+  return content_ && dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;
+}
+
+void CPolygonMap2D::getVisualizationInto(mrpt::opengl::CSetOfObjects& out) const {
+  if (!content_ || !genericMapParams.enableSaveAs3DObject) return;
+  const auto walls = mrpt::opengl::CSetOfLines::Create();
+  const auto open = mrpt::opengl::CSetOfLines::Create();
+  const auto beyond = mrpt::opengl::CSetOfLines::Create();
+  walls->setColor_u8(20, 30, 90);
+  open->setColor_u8(255, 140, 0);
+  beyond->setColor_u8(130, 130, 130);
+  forEachEdge(content_->map, [&](const TPoint2D& a, const TPoint2D& b, EdgeKind kind, bool far) {
+    const auto& lines = far ? beyond : kind == EdgeKind::open ? open : walls;
+    lines->appendLine(a.x, a.y, 0.0, b.x, b.y, 0.0);
+  });
+  for (const auto& lines : {walls, open, beyond}) out.insert(lines);
+}
+
+void CPolygonMap2D::saveMetricMapRepresentationToFile(const std::string& prefix) const {
+  if (!content_) return;
+  std::ofstream file(prefix + ".geojson", std::ios::binary);
+  file << toGeoJson(content_->map) << std::flush;
+  if (!file) throw std::runtime_error(prefix + ".geojson: cannot be written");
+}
+
+float CPolygonMap2D::squareDistanceToClosestCorrespondence(float x, float y) const {
+  double least = std::numeric_limits<double>::infinity();
+  if (!content_) return static_cast<float>(least);
+  const TPoint2D p(static_cast<double>(x), static_cast<double>(y));
+  forEachEdge(content_->map, [&](const TPoint2D& a, const TPoint2D& b, EdgeKind kind, bool) {
+    if (kind == EdgeKind::wall) least = std::min(least, squaredDistance(p, a, b));
+  });
+  return static_cast<float>(least);
+}
+
+// Version 0: the map as GeoJSON, which keeps every bit (empty: none), then the options.
+uint8_t CPolygonMap2D::serializeGetVersion() const {
+  return 0;
+}
+
+void CPolygonMap2D::serializeTo(mrpt::serialization::CArchive& out) const {
+  const TLikelihoodOptions& o = likelihoodOptions;
+  out << (content_ ? toGeoJson(content_->map) : std::string()) << o.metric << o.sigma
+      << static_cast<uint32_t>(o.decimation) << o.independent_beams << o.cost.tau_short
+      << o.cost.tau_long << o.cost.tau_open << o.cost.tau_none << o.cost.none_share;
+  out << genericMapParams;
+}
+
+void CPolygonMap2D::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {
+  if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  std::string text;
+  uint32_t decimation = 1;
+  TLikelihoodOptions o;
+  in >> text >> o.metric >> o.sigma >> decimation >> o.independent_beams >> o.cost.tau_short >>
+      o.cost.tau_long >> o.cost.tau_open >> o.cost.tau_none >> o.cost.none_share;
+  in >> genericMapParams;
+  o.decimation = decimation;
+  o.check();
+  likelihoodOptions = o;
+  content_.reset();
+  if (!text.empty()) setMap(repairMap(parseGeoJson(text, "stored CPolygonMap2D")).map);
+}
+
+CPolygonMap2D::TMapDefinition::TMapDefinition() = default;
+
+void CPolygonMap2D::TMapDefinition::loadFromConfigFile_map_specific(
+    const mrpt::config::CConfigFileBase& source, const std::string& prefix) {
+  const std::string section = prefix + "_creationOpts";
+  requireKnownKeys(
+      source, section,
+      {"file", "max_wall_gap", "tolerance_cells", "min_component_area", "max_filled_unknown_area",
+       "enableSaveAs3DObject", "enableObservationLikelihood", "enableObservationInsertion"});
+  file = source.read_string(section, "file", file);
+  if (file.empty()) throw InvalidParamsError("[" + section + "]: no 'file' is given");
+  const auto read = [&](const char* name, double& value) {
+    value = source.read_double(section, name, value);
+  };
+  read("max_wall_gap", grid.cleaning.max_wall_gap);
+  read("tolerance_cells", grid.tracing.tolerance_cells);
+  read("min_component_area", grid.tracing.min_component_area);
+  read("max_filled_unknown_area", grid.tracing.max_filled_unknown_area);
+  likelihood.loadFromConfigFile(source, prefix + "_likelihoodOpts");
+}
+
+void CPolygonMap2D::TMapDefinition::dumpToTextStream_map_specific(std::ostream& out) const {
+  out << "file = " << file << "\n";
+  likelihood.dumpToTextStream(out);
+}
+
+mrpt::maps::CMetricMap* CPolygonMap2D::internal_CreateFromMapDefinition(
+    const mrpt::maps::TMetricMapInitializer& definition) {
+  const auto& def = dynamic_cast<const TMapDefinition&>(definition);
+  auto map = std::make_unique<CPolygonMap2D>(loadMap(def.file, def.grid).map);
+  map->likelihoodOptions = def.likelihood;
+  map->genericMapParams = def.genericMapParams;
+  return map.release();
+}
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <mrpt_polyloc/geometry/PolygonMap.h>
+#include <mrpt_polyloc/mrpt_bridge/PolygonLikelihood.h>
+#include <mrpt_polyloc/mrpt_bridge/map_files.h>
+
+#include <mrpt/maps/CMetricMap.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace mrpt_polyloc {
+
+/// A polygon map as a metric map of MRPT (alias `polygonMap2D` in ini files): the likelihood of
+/// laser scans for any of its filters.
+///
+/// The map is given, not built: observations are not inserted, and clear() keeps it, for
+/// loadFromSimpleMap() clears all maps first. Const calls are thread-safe. Copies share the map.
+class CPolygonMap2D : public mrpt::maps::CMetricMap {
+  DEFINE_SERIALIZABLE(CPolygonMap2D, mrpt_polyloc)
+
+ public:
+  CPolygonMap2D() = default;
+  explicit CPolygonMap2D(PolygonMap map) { setMap(std::move(map)); }
+
+  /// Builds the index of what is seen from where: up to a second for the largest maps.
+  void setMap(PolygonMap map);
+  /// Null if empty.
+  const PolygonMap* map() const;
+
+  TLikelihoodOptions likelihoodOptions;
+
+  bool isEmpty() const override { return content_ == nullptr; }
+  std::string asString() const override;
+  /// Walls dark, open edges orange, walls beyond grey.
+  void getVisualizationInto(mrpt::opengl::CSetOfObjects& out) const override;
+  /// Writes PREFIX.geojson, which loadMap() reads; nothing for an empty map.
+  /// \throws std::runtime_error if it cannot be written
+  void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
+  /// To the nearest wall or wall beyond [m2]; infinity if there is none. O(number of edges).
+  float squareDistanceToClosestCorrespondence(float x, float y) const override;
+
+ private:
+  struct Content;
+
+  void internal_clear() override {}
+  bool internal_insertObservation(
+      const mrpt::obs::CObservation& observation,
+      const std::optional<const mrpt::poses::CPose3D>& robot_pose) override;
+  double internal_computeObservationLikelihood(
+      const mrpt::obs::CObservation& observation,
+      const mrpt::poses::CPose3D& taken_from) const override;
+  bool internal_canComputeObservationLikelihood(
+      const mrpt::obs::CObservation& observation) const override;
+
+  std::shared_ptr<const Content> content_;
+
+  MAP_DEFINITION_START(CPolygonMap2D)
+  std::string file;    ///< any map that loadMap() reads
+  GridMapParams grid;  ///< how a grid becomes polygons
+  mrpt_polyloc::TLikelihoodOptions likelihood;
+  MAP_DEFINITION_END(CPolygonMap2D)
+};
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <mrpt/config/CConfigFileBase.h>
+
+#include <string>
+#include <vector>
+
+namespace mrpt_polyloc {
+
+/// A misspelt option would be silently replaced by its default.
+/// \throws InvalidParamsError naming the section and the first name in it that is not known
+void requireKnownKeys(const mrpt::config::CConfigFileBase& source, const std::string& section,
+                      const std::vector<std::string>& known);
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace mrpt_polyloc {
+
+/// Makes the classes of this library known to MRPT, for stored objects and ini files. Loading the
+/// library does it too, but a linker drops a library of which a program uses no symbol: call this.
+void registerClasses();
+
+}  // namespace mrpt_polyloc
