@@ -14,7 +14,7 @@ packages=(
 )
 case "${1-}" in
   "") ;;
-  tests) packages+=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14) ;;
+  tests) packages+=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 mrpt-apps) ;;
   *)
     echo "usage: install-debian-packages.sh [tests]" >&2
     exit 2

@@ -87,6 +87,12 @@ PosePrior::Disk parseDisk(const std::string& text) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
+mrpt::math::TPoint2D parsePoint(const std::string& option, const std::string& text) {
+  const std::vector<double> numbers = parseNumbers(text, 2);
+  if (numbers.empty()) throw UsageError(option + ": '" + text + "' is not X,Y in metres");
+  return {numbers[0], numbers[1]};
+}
+
 Tolerance parseTolerance(const std::string& text) {
   const std::vector<double> numbers = parseNumbers(text, 2);
   if (numbers.empty() || numbers[0] <= 0.0 || numbers[1] <= 0.0 || numbers[1] > 180.0) {

@@ -3,6 +3,8 @@
 #include <mrpt_polyloc/evaluation/Summary.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 
+#include <mrpt/math/TPoint2D.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -34,6 +36,10 @@ std::vector<std::size_t> selectRows(const std::vector<RowRange>& ranges, std::si
 /// `X,Y,R`: the robot is within R > 0 of (X, Y) [m].
 /// \throws UsageError
 PosePrior::Disk parseDisk(const std::string& text);
+
+/// `X,Y`: a point of the map [m], for an option of that name.
+/// \throws UsageError
+mrpt::math::TPoint2D parsePoint(const std::string& option, const std::string& text);
 
 /// `M,DEG`: a tolerance, both positive, at most 180 degrees.
 /// \throws UsageError

@@ -4,8 +4,10 @@
 #include "../common/OutputFiles.h"
 #include "../common/map_input.h"
 #include "../common/map_picture.h"
+#include "../common/parsing.h"
 #include "cell_report.h"
 #include "map_report.h"
+#include "view_text.h"
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/geometry/polygon_files.h>
 
@@ -24,6 +26,7 @@ struct Options {
   std::string input;
   std::string output;
   std::string svg;
+  std::string view;
   bool check = false;
   bool cells = false;
   bool json = false;
@@ -33,6 +36,10 @@ void addOptions(CLI::App& cli, Options& options) {
   addText(cli, "INPUT", options.input, kMapFormats)->required()->type_name("");
   addText(cli, "-o", options.output, "Write the map as .geojson, or .wkt if it has no open edges")
       ->type_name("OUT");
+  addText(cli, "--view", options.view,
+          "Write with -o OUT.wkt not the map but what is seen from there: the visibility polygon, "
+          "relative to the point, as polyloc-localize --method exact reads it")
+      ->type_name("X,Y");
   addText(cli, "--svg", options.svg, "Draw the map")->type_name("PIC.svg");
   cli.add_flag("--check", options.check,
                "List the defects of the map; exit 1 if there is any, repaired or not");
@@ -61,7 +68,11 @@ std::string outputText(const std::string& path, const PolygonMap& map) {
 
 void writeOutputs(const Options& options, const PolygonMap& map, const CellReport* cells) {
   OutputFiles files;
-  if (!options.output.empty()) files.add(options.output, outputText(options.output, map));
+  if (!options.view.empty()) {
+    files.add(options.output, viewText(map, parsePoint("--view", options.view)));
+  } else if (!options.output.empty()) {
+    files.add(options.output, outputText(options.output, map));
+  }
   if (!options.svg.empty()) {
     SvgCanvas canvas(map.boundingBox());
     drawMap(canvas, map);
@@ -95,7 +106,14 @@ RepairedMap load(const Program& program, const Options& options) {
 }
 
 int convert(const Program& program, const Options& options) {
-  if (!options.output.empty()) extensionOf(options.output);  // before the work, not after it
+  // Before the work, not after it.
+  if (!options.output.empty()) extensionOf(options.output);
+  if (!options.view.empty()) {
+    parsePoint("--view", options.view);
+    if (std::filesystem::path(options.output).extension() != ".wkt") {
+      throw UsageError("--view is written as WKT: it needs -o OUT.wkt");
+    }
+  }
   requireWritable(options.output);
   requireWritable(options.svg);
   const RepairedMap loaded = load(program, options);

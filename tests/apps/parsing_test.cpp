@@ -49,6 +49,10 @@ TEST(Parsing, DiskAndTolerance) {
   const Tolerance tolerance = parseTolerance("0.3,180");
   EXPECT_EQ(tolerance.distance, 0.3);
   EXPECT_DOUBLE_EQ(tolerance.angle, M_PI);
+  EXPECT_EQ(parsePoint("--view", "-1.5,2"), mrpt::math::TPoint2D(-1.5, 2.0));
+  for (const char* bad : {"", "1", "1,2,3", "1,inf"}) {
+    EXPECT_THROW(parsePoint("--view", bad), UsageError) << "'" << bad << "'";
+  }
   for (const char* bad : {"", "1,2", "1,2,-1", "1,2,3,4", "1;2;3", "1,nan,3"}) {
     EXPECT_THROW(parseDisk(bad), UsageError) << "'" << bad << "'";
   }

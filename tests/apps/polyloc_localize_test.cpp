@@ -21,6 +21,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 using testing::StartsWith;
+using testing::UnorderedElementsAre;
 
 const char* const kHeader =
     "row,stamp,status,rank,x,y,phi_deg,weight,cost,std_x,std_y,std_phi_deg,ms";
@@ -279,6 +280,32 @@ TEST_F(PolylocLocalize, ExactlyTwoNichesCannotBeToldApart) {
                                                "--truth", path("truth.tum"), "-o", path("out")});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(readFile(path("out/summary.json")), HasSubstr("\"top5\": 1.0"));
+}
+
+TEST_F(PolylocLocalize, TheShippedNichesHaveTwoAnswersAndOnlyTwo) {
+  const std::string datasets = POLYLOC_SOURCE_DIR "/datasets/";
+  const std::string map = datasets + "niches.wkt";
+  for (const bool has_compass : {true, false}) {
+    std::vector<std::string> arguments = {
+        "--map", map, "--scans", datasets + "niches_query.wkt", "--method", "exact"};
+    if (has_compass) arguments.insert(arguments.end(), {"--compass", "0"});
+    const Outcome outcome = run("polyloc-localize", arguments);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const std::vector<std::string> lines = linesOf(outcome.out);
+    ASSERT_EQ(lines.size(), 3U) << outcome.out;
+    std::vector<std::string> places;
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      const std::vector<std::string> fields = fieldsOf(lines[i]);
+      EXPECT_EQ(fields[3], std::to_string(i));
+      places.push_back(fields[4] + " " + fields[5]);
+      EXPECT_NEAR(std::stod(fields[6]), 0.0, 1e-3);
+    }
+    EXPECT_THAT(places, UnorderedElementsAre("4.2500 -3.2500", "13.2500 -3.2500"));
+  }
+  // The query is what the map's own view from there is.
+  const Outcome view = run("polyloc-map", {map, "--view", "4.25,-3.25", "-o", path("view.wkt")});
+  EXPECT_EQ(view.code, 0) << view.err;
+  EXPECT_EQ(readFile(path("view.wkt")), readFile(datasets + "niches_query.wkt"));
 }
 
 TEST_F(PolylocLocalize, PolygonsThatCannotBeSeenFail) {

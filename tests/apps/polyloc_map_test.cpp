@@ -183,5 +183,25 @@ TEST_F(PolylocMap, CountsAndDrawsTheCells) {
   EXPECT_THAT(readFile(path("l.svg")), HasSubstr("critical segment"));
 }
 
+TEST_F(PolylocMap, WritesWhatIsSeenFromAPoint) {
+  const std::string square = write("square.wkt", "POLYGON ((1 1, 5 1, 5 4, 1 4, 1 1))\n");
+  const Outcome outcome = map({square, "--view", "2,2", "-o", path("view.wkt")});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  // The room itself, relative to the point, from any of its corners on.
+  const std::string corners = "-1 -1, 3 -1, 3 2, -1 2, -1 -1, 3 -1, 3 2, -1 2";
+  const std::string text = readFile(path("view.wkt"));
+  ASSERT_GT(text.size(), 16U);
+  EXPECT_EQ(text.substr(0, 10), "POLYGON ((");
+  EXPECT_THAT(corners, HasSubstr(text.substr(10, 23)));
+
+  const Outcome outside = map({square, "--view", "0,0", "-o", path("none.wkt")});
+  EXPECT_EQ(outside.code, 1);
+  EXPECT_THAT(outside.err, HasSubstr("(0 0) lies outside the free space"));
+  EXPECT_FALSE(std::filesystem::exists(path("none.wkt")));
+  EXPECT_EQ(map({square, "--view", "2", "-o", path("none.wkt")}).code, 2);
+  EXPECT_EQ(map({square, "--view", "2,2"}).code, 2);
+  EXPECT_EQ(map({square, "--view", "2,2", "-o", path("none.geojson")}).code, 2);
+}
+
 }  // namespace
 }  // namespace mrpt_polyloc::test
