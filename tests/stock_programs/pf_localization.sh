@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # pf_localization.sh LIBRARY POLYLOC_LOCALIZE INI: Debian's pf-localization, unmodified, localizes
-# MRPT's demo with a
-# polygon map once the library is loaded into it, and does not without. 77: the program or the data
-# are not installed.
+# MRPT's demo with a polygon map once the library is loaded into it, and does not without. 77: the
+# program or the data are not installed.
 set -euo pipefail
 library=$1 polyloc_localize=$2 ini=$3
 data=/usr/share/mrpt/datasets
