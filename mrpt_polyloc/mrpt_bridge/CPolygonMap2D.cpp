@@ -1,7 +1,10 @@
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/geometry/geojson.h>
 #include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
+#include <mrpt_polyloc/mrpt_bridge/NearestWalls.h>
 #include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
+#include <mrpt_polyloc/mrpt_bridge/mrpt_compat.h>
+#include <mrpt_polyloc/mrpt_bridge/wall_matching.h>
 
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
@@ -22,9 +25,11 @@ using mrpt::obs::CObservation2DRangeScan;
 IMPLEMENTS_SERIALIZABLE(CPolygonMap2D, mrpt::maps::CMetricMap, mrpt_polyloc)
 
 struct CPolygonMap2D::Content {
-  explicit Content(PolygonMap polygons) : map(std::move(polygons)), predictor(Triangulation(map)) {}
+  explicit Content(PolygonMap polygons)
+      : map(std::move(polygons)), predictor(Triangulation(map)), walls(map) {}
   PolygonMap map;
   RangePredictor predictor;
+  NearestWalls walls;
 };
 
 namespace {
@@ -42,14 +47,6 @@ void forEachEdge(const PolygonMap& map, const Visitor& visit) {
       visit(line[i], line[i + 1], EdgeKind::wall, true);
     }
   }
-}
-
-double squaredDistance(const TPoint2D& p, const TPoint2D& a, const TPoint2D& b) {
-  const TPoint2D edge = b - a, to_p = p - a;
-  const double norm = edge.x * edge.x + edge.y * edge.y;
-  const double t = norm > 0.0 ? (to_p.x * edge.x + to_p.y * edge.y) / norm : 0.0;
-  const TPoint2D nearest = a + edge * std::clamp(t, 0.0, 1.0);
-  return (p.x - nearest.x) * (p.x - nearest.x) + (p.y - nearest.y) * (p.y - nearest.y);
 }
 
 }  // namespace
@@ -108,13 +105,37 @@ void CPolygonMap2D::saveMetricMapRepresentationToFile(const std::string& prefix)
 }
 
 float CPolygonMap2D::squareDistanceToClosestCorrespondence(float x, float y) const {
-  double least = std::numeric_limits<double>::infinity();
-  if (!content_) return static_cast<float>(least);
-  const TPoint2D p(static_cast<double>(x), static_cast<double>(y));
-  forEachEdge(content_->map, [&](const TPoint2D& a, const TPoint2D& b, EdgeKind kind, bool) {
-    if (kind == EdgeKind::wall) least = std::min(least, squaredDistance(p, a, b));
-  });
-  return static_cast<float>(least);
+  const auto nearest =
+      content_ ? content_->walls.nearest({static_cast<double>(x), static_cast<double>(y)})
+               : std::nullopt;
+  return nearest ? static_cast<float>(nearest->squared_distance)
+                 : std::numeric_limits<float>::infinity();
+}
+
+void CPolygonMap2D::determineMatching2D(const mrpt::maps::CMetricMap* other,
+                                        const mrpt::poses::CPose2D& other_pose,
+                                        mrpt::tfest::TMatchingPairList& pairs,
+                                        const mrpt::maps::TMatchingParams& params,
+                                        mrpt::maps::TMatchingExtraResults& results) const {
+  determineMatching3D(other, mrpt::poses::CPose3D(other_pose), pairs, params, results);
+}
+
+void CPolygonMap2D::determineMatching3D(const mrpt::maps::CMetricMap* other,
+                                        const mrpt::poses::CPose3D& other_pose,
+                                        mrpt::tfest::TMatchingPairList& pairs,
+                                        const mrpt::maps::TMatchingParams& params,
+                                        mrpt::maps::TMatchingExtraResults& results) const {
+  pairs.clear();
+  results = {};
+  if (content_) matchWalls(content_->walls, *other, other_pose, params, pairs, results);
+}
+
+float CPolygonMap2D::compute3DMatchingRatio(const mrpt::maps::CMetricMap* other,
+                                            const mrpt::poses::CPose3D& other_pose,
+                                            const mrpt::maps::TMatchingRatioParams& params) const {
+  if (!content_) return 0.0F;
+  return wallMatchingRatio(content_->walls, *other, other_pose,
+                           static_cast<double>(params.maxDistForCorr));
 }
 
 // Version 0: the map as GeoJSON, which keeps every bit (empty: none), then the options.
@@ -171,13 +192,13 @@ void CPolygonMap2D::TMapDefinition::dumpToTextStream_map_specific(std::ostream& 
   likelihood.dumpToTextStream(out);
 }
 
-mrpt::maps::CMetricMap* CPolygonMap2D::internal_CreateFromMapDefinition(
+CreatedMap CPolygonMap2D::internal_CreateFromMapDefinition(
     const mrpt::maps::TMetricMapInitializer& definition) {
   const auto& def = dynamic_cast<const TMapDefinition&>(definition);
   auto map = std::make_unique<CPolygonMap2D>(loadMap(def.file, def.grid).map);
   map->likelihoodOptions = def.likelihood;
   map->genericMapParams = def.genericMapParams;
-  return map.release();
+  return toCreatedMap(std::move(map));
 }
 
 }  // namespace mrpt_polyloc

@@ -38,8 +38,23 @@ class CPolygonMap2D : public mrpt::maps::CMetricMap {
   /// Writes PREFIX.geojson, which loadMap() reads; nothing for an empty map.
   /// \throws std::runtime_error if it cannot be written
   void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
-  /// To the nearest wall or wall beyond [m2]; infinity if there is none. O(number of edges).
+  /// To the nearest wall or wall beyond [m2]; infinity if there is none. About O(log n).
   float squareDistanceToClosestCorrespondence(float x, float y) const override;
+  /// ICP's pairs with the points of another map, which must be a points map: see matchWalls().
+  void determineMatching2D(const mrpt::maps::CMetricMap* other,
+                           const mrpt::poses::CPose2D& other_pose,
+                           mrpt::tfest::TMatchingPairList& pairs,
+                           const mrpt::maps::TMatchingParams& params,
+                           mrpt::maps::TMatchingExtraResults& results) const override;
+  void determineMatching3D(const mrpt::maps::CMetricMap* other,
+                           const mrpt::poses::CPose3D& other_pose,
+                           mrpt::tfest::TMatchingPairList& pairs,
+                           const mrpt::maps::TMatchingParams& params,
+                           mrpt::maps::TMatchingExtraResults& results) const override;
+  /// The share of another points map's points within `maxDistForCorr` of a wall.
+  float compute3DMatchingRatio(const mrpt::maps::CMetricMap* other,
+                               const mrpt::poses::CPose3D& other_pose,
+                               const mrpt::maps::TMatchingRatioParams& params) const override;
 
  private:
   struct Content;

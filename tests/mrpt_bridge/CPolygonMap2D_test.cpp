@@ -2,6 +2,7 @@
 #include "tests/support/temp_file.h"
 #include <mrpt_polyloc/evaluation/WallSegments.h>
 #include <mrpt_polyloc/geometry/geojson.h>
+#include <mrpt_polyloc/geometry/validation.h>
 #include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
 #include <mrpt_polyloc/mrpt_bridge/registration.h>
 
@@ -10,10 +11,14 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
 #include <random>
+#include <thread>
 
 namespace mrpt_polyloc {
 namespace {
@@ -144,15 +149,146 @@ TEST(PolygonMap2D, RefusesWhatANewerVersionStored) {
   }
 }
 
+/// An open edge, a wall beyond it, and a hole.
+PolygonMap partlyOpenRoom() {
+  RawMap raw;
+  raw.polygons.push_back(
+      {wallRing({{0, 0}, {10, 0}, {10, 6}, {0, 6}}), {wallRing({{4, 2}, {4, 4}, {5, 4}, {5, 2}})}});
+  raw.polygons.front().outer.kinds[1] = EdgeKind::open;
+  raw.walls_beyond.push_back({{12, 1}, {12, 3}, {13, 5}});
+  return repairMap(raw).map;
+}
+
 TEST(PolygonMap2D, DistanceIsThatToTheNearestWall) {
-  const CPolygonMap2D map(room());
-  const WallSegments walls(room());
-  for (const TPoint2D& p : {TPoint2D(2, 2), TPoint2D(4.5, 3.5), TPoint2D(-3, 9)}) {
-    const double d = walls.distance(p);
-    EXPECT_NEAR(
-        map.squareDistanceToClosestCorrespondence(static_cast<float>(p.x), static_cast<float>(p.y)),
-        d * d, 1e-5);
+  for (const PolygonMap& polygons : {room(), partlyOpenRoom()}) {
+    const CPolygonMap2D map(polygons);
+    const WallSegments walls(polygons);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> anywhere(-4.0F, 16.0F);
+    for (int i = 0; i < 500; ++i) {
+      const float x = anywhere(random), y = anywhere(random);
+      const double d = walls.distance({static_cast<double>(x), static_cast<double>(y)});
+      EXPECT_NEAR(map.squareDistanceToClosestCorrespondence(x, y), d * d, 1e-5 * (1.0 + d * d));
+    }
+    EXPECT_TRUE(std::isinf(map.squareDistanceToClosestCorrespondence(std::nanf(""), 0.0F)));
   }
+  EXPECT_TRUE(std::isinf(CPolygonMap2D().squareDistanceToClosestCorrespondence(0.0F, 0.0F)));
+}
+
+TEST(PolygonMap2D, PairsPointsWithTheNearestWalls) {
+  const PolygonMap polygons = partlyOpenRoom();
+  const CPolygonMap2D map(polygons);
+  const WallSegments walls(polygons);
+  mrpt::maps::CSimplePointsMap points;
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> anywhere(-2.0F, 14.0F);
+  for (int i = 0; i < 400; ++i) points.insertPoint(anywhere(random), anywhere(random), 0.7F);
+  const mrpt::poses::CPose2D pose(1.0, -0.5, 0.4);
+  mrpt::maps::TMatchingParams params;
+  params.maxDistForCorrespondence = 0.4F;
+  params.maxAngularDistForCorrespondence = 0.02F;
+  params.angularDistPivotPoint = {2, 2, 0};
+  params.decimation_other_map_points = 2;
+  params.offset_other_map_points = 1;
+  mrpt::tfest::TMatchingPairList pairs;
+  mrpt::maps::TMatchingExtraResults results;
+  map.determineMatching2D(&points, pose, pairs, params, results);
+
+  // By brute force: which points have a wall in reach.
+  std::size_t next = 0, near_all = 0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    mrpt::math::TPoint3D local;
+    points.getPoint(i, local);
+    const auto global = CPose3D(pose).composePoint(local);
+    const double distance = walls.distance({global.x, global.y});
+    near_all += distance <= 0.4;
+    const double reach = 0.4 + 0.02 * params.angularDistPivotPoint.distanceTo(global);
+    if (i % 2 == 0 || distance > reach) continue;
+    ASSERT_LT(next, pairs.size());
+    const auto& pair = pairs[next++];
+    EXPECT_EQ(pair.localIdx, i);
+    EXPECT_NEAR(pair.local.x, local.x, 1e-5);
+    const mrpt::math::TPoint3D on_wall(pair.global);
+    EXPECT_NEAR(walls.distance({on_wall.x, on_wall.y}), 0.0, 1e-5);
+    EXPECT_NEAR(on_wall.distanceTo(global), distance, 1e-4);  // heights are equal
+    EXPECT_NEAR(pair.errorSquareAfterTransformation, distance * distance, 1e-5);
+    squares += distance * distance;
+  }
+  EXPECT_EQ(pairs.size(), next);
+  EXPECT_GT(next, 20U);
+  EXPECT_FLOAT_EQ(results.correspondencesRatio, static_cast<float>(next) / 200.0F);
+  EXPECT_NEAR(results.sumSqrDist, squares, 1e-3 * squares);
+
+  mrpt::maps::TMatchingRatioParams ratio;
+  ratio.maxDistForCorr = 0.4F;
+  EXPECT_NEAR(map.compute3DMatchingRatio(&points, CPose3D(pose), ratio),
+              static_cast<float>(near_all) / 400.0F, 0.0026);  // 0.4 as float: one point's worth
+}
+
+TEST(PolygonMap2D, MatchesPointsMapsOnly) {
+  const CPolygonMap2D map(room());
+  mrpt::tfest::TMatchingPairList pairs;
+  mrpt::maps::TMatchingExtraResults results;
+  EXPECT_THROW(map.determineMatching2D(&map, {}, pairs, {}, results), std::invalid_argument);
+  EXPECT_THROW(map.compute3DMatchingRatio(&map, {}, {}), std::invalid_argument);
+  const mrpt::maps::CSimplePointsMap none;
+  map.determineMatching2D(&none, {}, pairs, {}, results);
+  EXPECT_TRUE(pairs.empty());
+  EXPECT_EQ(results.correspondencesRatio, 0.0F);
+  EXPECT_EQ(map.compute3DMatchingRatio(&none, {}, {}), 0.0F);
+  CPolygonMap2D().determineMatching2D(&map, {}, pairs, {}, results);  // nothing to match with
+  EXPECT_TRUE(pairs.empty());
+}
+
+TEST(PolygonMap2D, LikelihoodsAreTheSameFromSeveralThreads) {
+  const PolygonMap polygons = room();
+  const CPolygonMap2D map(polygons);
+  const CObservation2DRangeScan scans[] = {castScan(polygons, 2, 1, 0.3),
+                                           castScan(polygons, 2, 6, -2.0)};
+  std::vector<CPose3D> poses;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int i = 0; i < 400; ++i) {
+    poses.emplace_back(10 * unit(random), 8 * unit(random), 0, 6 * unit(random), 0, 0);
+  }
+  const auto weigh = [&](std::size_t offset) {
+    std::vector<double> weights(poses.size());
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      const std::size_t i = (k + offset) % poses.size();
+      weights[i] = map.computeObservationLikelihood(scans[i % 2], poses[i]);
+    }
+    return weights;
+  };
+  const std::vector<double> expected = weigh(0);
+  std::vector<std::vector<double>> found(4);
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < found.size(); ++t) {
+    threads.emplace_back([&, t] { found[t] = weigh(97 * t); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& weights : found) EXPECT_EQ(weights, expected);
+}
+
+TEST(PolygonMap2D, ShowsItselfAsLinesAndSavesItselfAsGeoJson) {
+  const PolygonMap polygons = partlyOpenRoom();
+  const CPolygonMap2D map(polygons);
+  mrpt::opengl::CSetOfObjects scene;
+  map.getVisualizationInto(scene);
+  std::vector<std::size_t> counts;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto lines = scene.getByClass<mrpt::opengl::CSetOfLines>(i);
+    ASSERT_TRUE(lines);
+    counts.push_back(lines->getLineCount());
+  }
+  EXPECT_EQ(counts, (std::vector<std::size_t>{7, 1, 2}));  // walls, open edges, walls beyond
+  EXPECT_NE(map.asString(), CPolygonMap2D().asString());
+
+  const test::TempFile file(".geojson", "");
+  const std::string prefix = file.path().substr(0, file.path().size() - 8);
+  map.saveMetricMapRepresentationToFile(prefix);
+  EXPECT_EQ(toGeoJson(loadMap(prefix + ".geojson").map), toGeoJson(polygons));
+  EXPECT_THROW(map.saveMetricMapRepresentationToFile("/no/such/folder/map"), std::runtime_error);
 }
 
 }  // namespace
