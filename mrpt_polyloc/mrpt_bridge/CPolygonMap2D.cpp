@@ -77,6 +77,13 @@ double CPolygonMap2D::internal_computeObservationLikelihood(
                            {taken_from.x(), taken_from.y(), taken_from.yaw()}, likelihoodOptions);
 }
 
+std::vector<double> CPolygonMap2D::computeLikelihoods(
+    const CObservation2DRangeScan& scan,
+    const std::vector<mrpt::math::TPose2D>& poses_map_robot) const {
+  if (!content_) return std::vector<double>(poses_map_robot.size(), 0.0);
+  return scanLogLikelihoods(content_->predictor, scan, poses_map_robot, likelihoodOptions);
+}
+
 bool CPolygonMap2D::internal_canComputeObservationLikelihood(
     const mrpt::obs::CObservation& observation) const {
   return content_ && dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;

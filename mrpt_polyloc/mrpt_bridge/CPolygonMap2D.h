@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mrpt_polyloc {
 
@@ -30,6 +31,12 @@ class CPolygonMap2D : public mrpt::maps::CMetricMap {
   const PolygonMap* map() const;
 
   TLikelihoodOptions likelihoodOptions;
+
+  /// computeObservationLikelihood() for many poses of the robot at once, which is faster; 0 for
+  /// each if the map is empty.
+  std::vector<double> computeLikelihoods(
+      const mrpt::obs::CObservation2DRangeScan& scan,
+      const std::vector<mrpt::math::TPose2D>& poses_map_robot) const;
 
   bool isEmpty() const override { return content_ == nullptr; }
   std::string asString() const override;

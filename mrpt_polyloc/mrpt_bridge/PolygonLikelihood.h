@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <string>
+#include <vector>
 
 namespace mrpt_polyloc {
 
@@ -45,5 +46,12 @@ double scanLogLikelihood(const RangePredictor& predictor,
                          const mrpt::obs::CObservation2DRangeScan& scan,
                          const mrpt::math::TPose2D& pose_map_robot,
                          const TLikelihoodOptions& options);
+
+/// The same for many poses of the ROBOT, in their order; taken cell by cell, so that what is seen
+/// from a cell stays in the processor's cache.
+std::vector<double> scanLogLikelihoods(const RangePredictor& predictor,
+                                       const mrpt::obs::CObservation2DRangeScan& scan,
+                                       const std::vector<mrpt::math::TPose2D>& poses_map_robot,
+                                       const TLikelihoodOptions& options);
 
 }  // namespace mrpt_polyloc

@@ -270,6 +270,28 @@ TEST(PolygonMap2D, LikelihoodsAreTheSameFromSeveralThreads) {
   for (const auto& weights : found) EXPECT_EQ(weights, expected);
 }
 
+TEST(PolygonMap2D, ManyPosesAtOnceAreWeighedAsOneByOne) {
+  const PolygonMap polygons = partlyOpenRoom();
+  CPolygonMap2D map(polygons);
+  const CObservation2DRangeScan scan = castScan(polygons, 2, 1, 0.3);
+  std::vector<mrpt::math::TPose2D> poses;
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int i = 0; i < 300; ++i) {
+    poses.emplace_back(14 * unit(random) - 2, 10 * unit(random) - 2, 6 * unit(random));
+  }
+  for (const char* metric : {"robust", "polar"}) {
+    map.likelihoodOptions.metric = metric;
+    const std::vector<double> found = map.computeLikelihoods(scan, poses);
+    ASSERT_EQ(found.size(), poses.size());
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      EXPECT_EQ(found[i], map.computeObservationLikelihood(scan, CPose3D(poses[i])));
+    }
+  }
+  EXPECT_TRUE(map.computeLikelihoods(scan, {}).empty());
+  EXPECT_EQ(CPolygonMap2D().computeLikelihoods(scan, poses), std::vector<double>(300, 0.0));
+}
+
 TEST(PolygonMap2D, ShowsItselfAsLinesAndSavesItselfAsGeoJson) {
   const PolygonMap polygons = partlyOpenRoom();
   const CPolygonMap2D map(polygons);
