@@ -8,13 +8,19 @@
 namespace mrpt_polyloc::apps {
 namespace {
 
+/// A number rounded to so many decimals, 0 without a sign: for texts that are compared.
+double rounded(double value, double decimals) {
+  const double unit = std::pow(10.0, -decimals);
+  return std::round(value / unit) * unit + 0.0;
+}
+
 std::string poseColumns(const Hypothesis& hypothesis) {
   const auto& pose = hypothesis.pose_map_robot;
   const auto deviation = [&](int i) { return std::sqrt(hypothesis.covariance(i, i)); };
   char text[240];
-  std::snprintf(text, sizeof text, "%.4f,%.4f,%.3f,%.6g,%.5f,%.4f,%.4f,%.3f", pose.x, pose.y,
-                toDegrees(pose.phi), hypothesis.weight, hypothesis.cost, deviation(0), deviation(1),
-                toDegrees(deviation(2)));
+  std::snprintf(text, sizeof text, "%.4f,%.4f,%.3f,%.6g,%.5f,%.4f,%.4f,%.3f", rounded(pose.x, 4),
+                rounded(pose.y, 4), rounded(toDegrees(pose.phi), 3), hypothesis.weight,
+                hypothesis.cost, deviation(0), deviation(1), toDegrees(deviation(2)));
   return text;
 }
 

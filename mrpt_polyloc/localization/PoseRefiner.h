@@ -36,8 +36,8 @@ struct RefinedPose {
 
 /// Moves poses to where the scan fits best: Gauss-Newton on the distances between the hits and the
 /// lines that the map predicts the beams to hit (projective point-to-line matching), weighted
-/// robustly. Within one combination of lines the predicted range is smooth in the pose (theory:
-/// section 8, B6), and the derivatives are exact.
+/// robustly. Within one combination of lines the predicted range is smooth in the pose, and the
+/// derivatives are exact.
 class PoseRefiner {
  public:
   /// Keeps a reference to the predictor. At most `max_beams` hits, evenly chosen, are used; 0: all.
