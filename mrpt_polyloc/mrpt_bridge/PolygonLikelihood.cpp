@@ -109,7 +109,7 @@ double robustMean(const PreparedScan& scan, const PredictedRanges& seen, const R
   return static_cast<double>(sum) / static_cast<double>(scan.beams.size());
 }
 
-/// Of squares [m2]; beams without return have no place in the metric and cost nothing.
+/// Of the hits' squares [m2]; beams without return have no place in the metric. 0 without hits.
 double polarMean(const PreparedScan& scan, const PredictedRanges& seen, double cap) {
   double sum = 0.0;
   for (std::size_t i = 0; i < scan.hits.size(); ++i) {
@@ -117,7 +117,7 @@ double polarMean(const PreparedScan& scan, const PredictedRanges& seen, double c
     const double d = std::min(std::abs(scan.beams[i].range - wall), cap);
     sum += d * d;
   }
-  return sum / static_cast<double>(scan.beams.size());
+  return scan.hits.empty() ? 0.0 : sum / static_cast<double>(scan.hits.size());
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace mrpt_polyloc {
 struct CellEstimate {
   std::size_t windows = 0;    ///< critical segments
   std::size_t crossings = 0;  ///< between them, counted pair by pair in floating point
-  /// Upper bound of the cells (fewer where several segments cross in one point).
+  /// Upper bound of the cells (fewer where several segments cross in one point); with a limited
+  /// range an estimate only, as crossings with the edges that divide are not counted.
   std::size_t cells() const { return crossings + windows + 1; }
   double megabytes() const;  ///< while it is built, from kBytesPerCell
 };

@@ -183,6 +183,26 @@ TEST_F(PolylocMap, CountsAndDrawsTheCells) {
   EXPECT_THAT(readFile(path("l.svg")), HasSubstr("critical segment"));
 }
 
+TEST_F(PolylocMap, RefusesTooManyVisibilityCellsWithTheirCount) {
+  std::string text = "POLYGON ((0 0, 27 0, 27 27, 0 27, 0 0)";
+  for (int x = 1; x < 9; ++x) {
+    for (int y = 1; y < 9; ++y) {  // pillars, none in line with others
+      const double a = 3.0 * x + 0.13 * y, b = 3.0 * y + 0.17 * x;
+      const auto corner = [](double u, double v) {
+        return std::to_string(u) + " " + std::to_string(v);
+      };
+      text += ", (" + corner(a, b) + ", " + corner(a, b + 0.5) + ", " + corner(a + 0.5, b + 0.5) +
+              ", " + corner(a + 0.5, b) + ", " + corner(a, b) + ")";
+    }
+  }
+  const std::string hall = write("hall.wkt", text + ")\n");
+  const Outcome outcome = map({hall, "--cells", "--svg", path("cells.svg")});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("visibility cells, more than the budget of 1000000"));
+  EXPECT_THAT(outcome.out, IsEmpty());
+  EXPECT_FALSE(std::filesystem::exists(path("cells.svg")));
+}
+
 TEST_F(PolylocMap, WritesWhatIsSeenFromAPoint) {
   const std::string square = write("square.wkt", "POLYGON ((1 1, 5 1, 5 4, 1 4, 1 1))\n");
   const Outcome outcome = map({square, "--view", "2,2", "-o", path("view.wkt")});

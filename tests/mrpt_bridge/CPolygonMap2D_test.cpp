@@ -137,6 +137,30 @@ TEST(PolygonMap2D, ComplainsOfABadIni) {
   EXPECT_ANY_THROW(make(iniFor(good.path(), "sigmma=0.2")));
   EXPECT_ANY_THROW(make(iniFor(good.path(), "sigma=-1")));
   EXPECT_NO_THROW(make(iniFor(good.path())));
+  // The messages name the option or the file.
+  const auto complaint = [&](const std::string& ini) {
+    return test::messageOf<std::exception>([&] { make(ini); });
+  };
+  EXPECT_NE(complaint(iniFor("")).find("no 'file' is given"), std::string::npos);
+  EXPECT_NE(complaint(iniFor("/nowhere/map.geojson")).find("/nowhere/map.geojson"),
+            std::string::npos);
+  EXPECT_NE(complaint(iniFor(broken.path())).find(broken.path()), std::string::npos);
+  EXPECT_NE(complaint(iniFor(good.path(), "sigmma=0.2")).find("sigmma"), std::string::npos);
+  EXPECT_NE(complaint(iniFor(good.path(), "sigma=-1")).find("sigma"), std::string::npos);
+}
+
+TEST(PolygonMap2D, ThePolarMetricIsAMeanOverTheHits) {
+  CPolygonMap2D map(room());
+  map.likelihoodOptions.metric = "polar";
+  auto scan = castScan(room(), 2, 2, 0.5);
+  for (std::size_t i = 0; i < 61; ++i) scan.setScanRange(i, scan.getScanRange(i) + 0.1F);
+  const CPose3D pose(2, 2, 0, 0.5, 0, 0);
+  const double all = map.computeObservationLikelihood(scan, pose);
+  EXPECT_NEAR(all, -20.0 * 0.01 / 0.02, 0.01);
+  for (std::size_t i = 0; i < 30; ++i) scan.setScanRangeValidity(i, false);  // no-returns
+  EXPECT_NEAR(map.computeObservationLikelihood(scan, pose), all, 0.01);
+  for (std::size_t i = 30; i < 61; ++i) scan.setScanRangeValidity(i, false);
+  EXPECT_EQ(map.computeObservationLikelihood(scan, pose), 0.0);
 }
 
 TEST(PolygonMap2D, RefusesWhatANewerVersionStored) {
