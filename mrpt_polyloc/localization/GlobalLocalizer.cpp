@@ -4,6 +4,7 @@
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/ScanCost.h>
 #include <mrpt_polyloc/localization/SignaturePyramid.h>
+#include <mrpt_polyloc/localization/assessment.h>
 #include <mrpt_polyloc/localization/search_positions.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 
@@ -143,15 +144,8 @@ LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePr
 
   const Stopwatch refinement_watch;
   const ScanCost cost(impl_->predictor, scan, params.cost);
-  std::vector<RankedPose> poses = impl_->refine(found.candidates, scan, prior, cost);
-  if (poses.empty() || poses.front().cost > params.hypotheses.no_match_cost) {
-    result.status = LocalizationStatus::no_match;
-  } else {
-    result.status = isUnique(poses, cost, params.hypotheses) ? LocalizationStatus::unique
-                                                             : LocalizationStatus::ambiguous;
-    if (poses.size() > params.max_hypotheses) poses.resize(params.max_hypotheses);
-    result.hypotheses = toHypotheses(poses, scan, params.hypotheses);
-  }
+  const std::vector<RankedPose> poses = impl_->refine(found.candidates, scan, prior, cost);
+  assess(poses, scan, cost, params.hypotheses, params.max_hypotheses, result);
   result.statistics.refinement_ms = 1e3 * refinement_watch.seconds();
   return result;
 }
