@@ -21,20 +21,22 @@ namespace {
 constexpr std::uint64_t kMostThreads = 1024;
 constexpr std::uint64_t kMostHypotheses = 1'000'000;
 
-constexpr const char* kBuiltMethods = "exhaustive, exact";
+constexpr const char* kBuiltMethods = "certified, exhaustive, exact";
 
 /// \throws UsageError if the method is unknown or not built yet.
 void checkMethod(const std::string& method) {
-  if (method == "exhaustive" || method == "exact") return;
-  constexpr std::array<const char*, 2> planned = {"certified", "cells"};
+  if (method == "certified" || method == "exhaustive" || method == "exact") return;
+  constexpr std::array<const char*, 1> planned = {"cells"};
   if (std::find(planned.begin(), planned.end(), method) != planned.end()) {
     throw UsageError("--method " + method + " is not built yet; there is: " + kBuiltMethods);
   }
   throw UsageError("--method: unknown method '" + method + "'; there is: " + kBuiltMethods);
 }
 
-ScanLocalizer makeExhaustive(PolygonMap map, const SearchOptions& search) {
+ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
   GlobalLocalizerParams params;
+  params.method =
+      search.method == "exhaustive" ? SearchMethod::exhaustive : SearchMethod::certified;
   params.max_hypotheses = search.max_hypotheses;
   params.threads = static_cast<int>(search.threads);
   // Shared, for a std::function must be copyable.
@@ -81,9 +83,8 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
             checkMethod(method);
             search.method = method;
           },
-          "How to search: exhaustive [default], exact (a polygon seen without any noise); "
-          "certified "
-          "and cells are not built yet")
+          "How to search: certified [default], exhaustive (a lattice of poses), exact (a polygon "
+          "seen without any noise); cells is not built yet")
       ->type_name("NAME");
   addCount(
       options, "--max-hypotheses", search.max_hypotheses, 1, kMostHypotheses,
@@ -96,7 +97,7 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
 }
 
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search) {
-  return search.method == "exact" ? makeExact(map, search) : makeExhaustive(std::move(map), search);
+  return search.method == "exact" ? makeExact(map, search) : makeGlobal(std::move(map), search);
 }
 
 std::vector<RangeScan> loadSearchedScans(const SearchOptions& search, const ScanFileOptions& file) {

@@ -18,7 +18,7 @@ namespace mrpt_polyloc::apps {
 struct SearchOptions {
   std::string map;
   std::string scans;
-  std::string method = "exhaustive";
+  std::string method = "certified";
   std::uint64_t max_hypotheses = 20;
   /// Threads for the index, and for scans at once; 0 (not given): all cores for the index, and one
   /// scan after the other, so that the times of a scan mean something.

@@ -1,6 +1,8 @@
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/params_check.h>
+#include <mrpt_polyloc/localization/BandQuery.h>
+#include <mrpt_polyloc/localization/CellTree.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/ScanCost.h>
 #include <mrpt_polyloc/localization/SignaturePyramid.h>
@@ -11,10 +13,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace mrpt_polyloc {
 namespace {
+
+using mrpt::math::TPose2D;
 
 class Stopwatch {
  public:
@@ -48,7 +53,10 @@ void GlobalLocalizerParams::check() const {
   requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e6);
   requireInRange("threads", threads, 0.0, 1024.0);
   requireInRange("spacing", spacing, 0.01, 10.0);
+  requireInRange("cell_size", cell_size, 0.01, 10.0);
   cost.check();
+  search_cost.check();
+  certified.check();
   signature.check();
   search.check();
   refinement.check();
@@ -60,27 +68,87 @@ struct GlobalLocalizer::Impl {
       : params(parameters),
         map(std::move(polygon_map)),
         triangulation(map),
-        predictor(triangulation, RangePredictor::kCellSize, params.threads),
-        pyramid(predictor, searchPositions(triangulation, params.spacing), triangulation.box().min,
-                params.spacing, params.threads),
-        build_seconds(watch.seconds()) {}
+        predictor(triangulation,
+                  params.method == SearchMethod::certified ? 2.0 * params.cell_size
+                                                           : RangePredictor::kCellSize,
+                  params.threads) {
+    if (params.method == SearchMethod::certified) {
+      cells.emplace(triangulation, predictor.index(),
+                    CellTreeParams{params.cell_size, params.threads});
+    } else {
+      pyramid.emplace(predictor, searchPositions(triangulation, params.spacing),
+                      triangulation.box().min, params.spacing, params.threads);
+    }
+    build_seconds = watch.seconds();
+  }
+
+  /// The poses to be refined, and what is known of the others.
+  std::vector<TPose2D> search(const RangeScan& scan, const PosePrior& prior,
+                              LocalizationResult& result) const;
+  std::vector<TPose2D> searchCertified(const RangeScan& scan, const PosePrior& prior,
+                                       LocalizationResult& result) const;
 
   /// Candidates refined with some of the beams, the best of them with all, of these what the prior
   /// allows; sorted by cost.
-  std::vector<RankedPose> refine(const std::vector<PoseCandidate>& candidates,
-                                 const RangeScan& scan, const PosePrior& prior,
-                                 const ScanCost& cost) const;
+  std::vector<RankedPose> refine(const std::vector<TPose2D>& candidates, const RangeScan& scan,
+                                 const PosePrior& prior, const ScanCost& cost) const;
 
   Stopwatch watch;
   GlobalLocalizerParams params;
   PolygonMap map;
   Triangulation triangulation;
   RangePredictor predictor;
-  SignaturePyramid pyramid;
-  double build_seconds;
+  std::optional<CellTree> cells;            ///< certified
+  std::optional<SignaturePyramid> pyramid;  ///< exhaustive
+  double build_seconds = 0.0;
 };
 
-std::vector<RankedPose> GlobalLocalizer::Impl::refine(const std::vector<PoseCandidate>& candidates,
+std::vector<TPose2D> GlobalLocalizer::Impl::search(const RangeScan& scan, const PosePrior& prior,
+                                                   LocalizationResult& result) const {
+  if (cells) return searchCertified(scan, prior, result);
+  const SignatureQuery query(scan, params.signature, params.cost.none_share);
+  const PyramidSearchResult found =
+      searchPyramid(*pyramid, query, prior, scan.sensor(), params.search);
+  result.statistics.positions = pyramid->blocks(0).size();
+  result.statistics.evaluated = found.evaluated;
+  std::vector<TPose2D> poses;
+  for (const PyramidCandidate& candidate : found.candidates) {
+    poses.push_back(candidate.pose_map_beams);
+  }
+  return poses;
+}
+
+std::vector<TPose2D> GlobalLocalizer::Impl::searchCertified(const RangeScan& scan,
+                                                            const PosePrior& prior,
+                                                            LocalizationResult& result) const {
+  const BandQuery query(scan, params.search_cost);
+  const RangeScan searched(query.beams, scan.sensor());
+  const ScanCost cost(predictor, searched, params.search_cost);
+  const PoseRefiner refiner(predictor, searched, params.refinement);
+  const CertifiedSearchResult found = searchCells(
+      *cells, predictor, query, prior, scan.sensor(),
+      [&](const TPose2D& pose) {
+        return std::min(cost.mean(pose), cost.mean(refiner.refine(pose).pose_map_beams));
+      },
+      params.certified);
+  result.statistics.positions = cells->nodes(0).size();
+  result.statistics.evaluated = found.evaluated;
+  result.certificate = Certificate{found.certified_cost, found.is_complete, found.regions.size()};
+  if (params.keep_regions) {
+    for (const RemainingCell& remaining : found.regions) {
+      const TPoint2D* polygon = cells->polygon(remaining.cell);
+      result.regions.push_back({{polygon, polygon + cells->polygonSize(remaining.cell)},
+                                query.heading(remaining.heading),
+                                query.heading(remaining.heading + 1.0),
+                                static_cast<double>(remaining.bound)});
+    }
+  }
+  std::vector<TPose2D> poses;
+  for (const PoseCandidate& candidate : found.candidates) poses.push_back(candidate.pose_map_beams);
+  return poses;
+}
+
+std::vector<RankedPose> GlobalLocalizer::Impl::refine(const std::vector<TPose2D>& candidates,
                                                       const RangeScan& scan, const PosePrior& prior,
                                                       const ScanCost& cost) const {
   // Enough beams to come near the optimum; all of them only where it may matter.
@@ -89,8 +157,8 @@ std::vector<RankedPose> GlobalLocalizer::Impl::refine(const std::vector<PoseCand
   const PoseRefiner fine(predictor, scan, params.refinement);
   std::vector<RankedPose> poses;
   poses.reserve(candidates.size());
-  for (const PoseCandidate& candidate : candidates) {
-    const RefinedPose refined = coarse.refine(candidate.pose_map_beams);
+  for (const TPose2D& candidate : candidates) {
+    const RefinedPose refined = coarse.refine(candidate);
     const auto pose_map_robot = scan.robotFromBeamFrame(refined.pose_map_beams);
     if (!isAllowed(prior, pose_map_robot, params.hypotheses)) continue;
     poses.push_back({refined, cost.mean(refined.pose_map_beams)});
@@ -121,7 +189,8 @@ const PolygonMap& GlobalLocalizer::map() const {
   return impl_->map;
 }
 std::size_t GlobalLocalizer::indexBytes() const {
-  return impl_->pyramid.bytes() + impl_->predictor.index().bytes();
+  return (impl_->cells ? impl_->cells->bytes() : impl_->pyramid->bytes()) +
+         impl_->predictor.index().bytes();
 }
 double GlobalLocalizer::indexBuildSeconds() const {
   return impl_->build_seconds;
@@ -131,20 +200,16 @@ LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePr
   prior.check();
   const GlobalLocalizerParams& params = impl_->params;
   LocalizationResult result;
-  result.statistics.positions = impl_->pyramid.blocks(0).size();
   if (scan.hitCount() < params.least_hits) return result;
 
   const Stopwatch search_watch;
-  const SignatureQuery query(scan, params.signature, params.cost.none_share);
-  const PyramidSearchResult found =
-      searchPyramid(impl_->pyramid, query, prior, scan.sensor(), params.search);
-  result.statistics.evaluated = found.evaluated;
-  result.statistics.refined = found.candidates.size();
+  const std::vector<TPose2D> candidates = impl_->search(scan, prior, result);
+  result.statistics.refined = candidates.size();
   result.statistics.search_ms = 1e3 * search_watch.seconds();
 
   const Stopwatch refinement_watch;
   const ScanCost cost(impl_->predictor, scan, params.cost);
-  const std::vector<RankedPose> poses = impl_->refine(found.candidates, scan, prior, cost);
+  const std::vector<RankedPose> poses = impl_->refine(candidates, scan, prior, cost);
   assess(poses, scan, cost, params.hypotheses, params.max_hypotheses, result);
   result.statistics.refinement_ms = 1e3 * refinement_watch.seconds();
   return result;

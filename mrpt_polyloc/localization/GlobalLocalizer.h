@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/geometry/PolygonMap.h>
+#include <mrpt_polyloc/localization/CertifiedSearch.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 #include <mrpt_polyloc/localization/PoseRefiner.h>
 #include <mrpt_polyloc/localization/PyramidSearch.h>
@@ -14,15 +15,31 @@
 
 namespace mrpt_polyloc {
 
+/// How candidates are found.
+enum class SearchMethod {
+  certified,  ///< branch and bound over cells: what is left out is proven to cost more
+  exhaustive  ///< all poses of a lattice, by coarse codes
+};
+
 struct GlobalLocalizerParams {
+  SearchMethod method = SearchMethod::certified;
   std::size_t max_hypotheses = 20;  ///< at most so many are returned
   int threads = 0;                  ///< for building the index; 0: all cores
-  /// Distance of the positions that are compared [m]. Refinement finds the optimum from half of it;
-  /// time and memory grow with its inverse square.
+  /// Certified: side of the finest cells [m]. Smaller ones are bounded more tightly; time of
+  /// building and memory grow with the inverse square.
+  double cell_size = 0.25;
+  /// Certified: whether the result lists what could not be excluded.
+  bool keep_regions = false;
+  /// Exhaustive: distance of the positions that are compared [m]. Refinement finds the optimum from
+  /// half of it; time and memory grow with its inverse square.
   double spacing = 0.1;
   /// Scans with fewer hits are not searched for: so few fit almost everywhere.
   std::size_t least_hits = 15;
-  RobustCostParams cost;
+  RobustCostParams cost;  ///< by which poses are ranked
+  /// The certified search's cost: wider truncations, by which wrong poses stand out more, so that
+  /// bounds exclude more.
+  RobustCostParams search_cost{1.2, 2.0, 0.6, 0.3, RobustCostParams{}.none_share};
+  CertifiedSearchParams certified;
   SignatureCosts signature;
   PyramidSearchParams search;
   PoseRefinerParams refinement;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt/math/CMatrixFixed.h>
+#include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
@@ -47,17 +48,35 @@ struct PosePrior {
 
 /// What the search did.
 struct SearchStatistics {
-  std::size_t positions = 0;   ///< candidate positions in the index
-  std::size_t evaluated = 0;   ///< poses whose cost was (at least partly) evaluated
+  std::size_t positions = 0;   ///< candidate positions, or cells, in the index
+  std::size_t evaluated = 0;   ///< nodes whose cost was bounded or evaluated
   std::size_t refined = 0;     ///< candidates refined
   double search_ms = 0.0;      ///< wall time of the search
   double refinement_ms = 0.0;  ///< wall time of refinement, ranking and merging
+};
+
+/// What the certified search has proven: no pose that the prior allows, its sensor in free space,
+/// has a search cost of at most `cost` but those near the hypotheses and in regions that bounds do
+/// not exclude (see GlobalLocalizerParams::keep_regions).
+struct Certificate {
+  double cost = 0.0;        ///< search cost [m]: a mean over the beams searched with
+  bool is_complete = true;  ///< false: a budget ended the search before the margin was reached
+  std::size_t regions = 0;  ///< not excluded, each a cell and a few degrees of heading
+};
+
+/// Poses of the beam frame (see RangeScan) in the map that could not be excluded.
+struct PoseRegion {
+  std::vector<mrpt::math::TPoint2D> cell;  ///< convex polygon of the sensor's positions [m]
+  double first_heading, last_heading;      ///< counterclockwise from the first to the last [rad]
+  double bound;                            ///< no pose of it has a lower search cost [m]
 };
 
 /// All hypotheses for one scan, best first; empty unless status is unique or ambiguous.
 struct LocalizationResult {
   LocalizationStatus status = LocalizationStatus::too_few_beams;
   std::vector<Hypothesis> hypotheses;
+  std::optional<Certificate> certificate;  ///< of the certified search alone
+  std::vector<PoseRegion> regions;         ///< if asked for
   SearchStatistics statistics;
 };
 

@@ -23,14 +23,14 @@ struct PyramidSearchParams {
   void check() const;
 };
 
-/// A pose of the beam frame in the map that the codes speak for.
-struct PoseCandidate {
+/// A pose that the codes speak for.
+struct PyramidCandidate {
   mrpt::math::TPose2D pose_map_beams;
   unsigned cost = 0;  ///< sum over the bins, in steps of RangeCode
 };
 
 struct PyramidSearchResult {
-  std::vector<PoseCandidate> candidates;  ///< best first; one per cell of 0.3 m and 5.6 degrees
+  std::vector<PyramidCandidate> candidates;  ///< best first; one per cell of 0.3 m and 5.6 degrees
   std::size_t evaluated = 0;              ///< blocks and headings whose bound was computed
 };
 

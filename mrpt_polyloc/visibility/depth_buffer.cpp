@@ -1,44 +1,21 @@
 #include <mrpt_polyloc/geometry/cpu_dispatch.h>
 #include <mrpt_polyloc/visibility/depth_buffer.h>
+#include <mrpt_polyloc/visibility/fast_atan2.h>
 
 #include <algorithm>
 #include <cmath>
-
-#define POLYLOC_INLINE inline __attribute__((always_inline))
 
 namespace mrpt_polyloc {
 namespace {
 
 using Run = BoundaryChains::Run;
 
-constexpr float kPi = 3.14159265F;
+constexpr float kPi = kPiF;
 
 /// Loops over short runs go in whole blocks, of as many floats as the widest vectors hold: what is
 /// beyond the end is computed too and then masked or overwritten.
 constexpr std::size_t kBlock = FloatBlocks::kBlock;
 static_assert(kBlock <= BoundaryChains::kPadding);
-
-/// atan2 without branches, for vector code. Error below 4e-7: the polynomial interpolates
-/// atan(a) / a in a^2 at the nine Chebyshev nodes of [0, 1] (error 1e-8), the rest is rounding.
-POLYLOC_INLINE float atan2Polynomial(float y, float x) {
-  const float abs_x = std::fabs(x), abs_y = std::fabs(y);
-  const float greater = std::max(abs_x, abs_y), smaller = std::min(abs_x, abs_y);
-  const float a = smaller / std::max(greater, 1e-30F);
-  const float s = a * a;
-  float p = 0.00276628350F;
-  p = p * s - 0.0157312491F;
-  p = p * s + 0.0421376236F;
-  p = p * s - 0.0745685483F;
-  p = p * s + 0.106183706F;
-  p = p * s - 0.141977978F;
-  p = p * s + 0.199918719F;
-  p = p * s - 0.333330367F;
-  p = p * s + 0.999999982F;
-  p *= a;
-  p = abs_y > abs_x ? 0.5F * kPi - p : p;
-  p = x < 0.0F ? kPi - p : p;
-  return y < 0.0F ? -p : p;
-}
 
 /// Copies the runs' vertices, relative to the viewpoint; returns their number.
 POLYLOC_INLINE std::size_t gather(const BoundaryChains& chains, const Run* runs, std::size_t count,

@@ -67,7 +67,7 @@ void expectExhaustive(const PyramidSearchResult& found, const std::map<Cell, uns
   EXPECT_EQ(found.candidates.front().cost, best);
   std::map<Cell, unsigned> got;
   unsigned before = 0;
-  for (const PoseCandidate& candidate : found.candidates) {
+  for (const PyramidCandidate& candidate : found.candidates) {
     EXPECT_GE(candidate.cost, before);
     before = candidate.cost;
     EXPECT_TRUE(got.emplace(cellOf(candidate.pose_map_beams), candidate.cost).second);
@@ -124,7 +124,7 @@ TEST_P(PyramidSearchOnMaps, APriorRestrictsTheExhaustiveComparison) {
                                   return within(pose, PyramidOfMap::kSpacing, half_bin);
                                 }),
                      query.used_bins, unlimited());
-    for (const PoseCandidate& candidate : found.candidates) {
+    for (const PyramidCandidate& candidate : found.candidates) {
       EXPECT_TRUE(within(candidate.pose_map_beams, PyramidOfMap::kSpacing, half_bin));
     }
   }

@@ -1,0 +1,103 @@
+#include <mrpt_polyloc/localization/BandQuery.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mrpt_polyloc {
+namespace {
+
+/// By so much of a bin beams may be off the phase: rounding, within the bands' angular slack.
+constexpr double kInPhase = 4e-4;
+
+double placeOf(const Beam& beam) {
+  return wrapToTwoPi(beam.bearing) / kBandBinWidth;
+}
+
+double offPhase(double place, double phase) {
+  return std::remainder(place - phase, 1.0);
+}
+
+/// The phase [bins] that most beams share, and how many do.
+std::pair<double, std::size_t> commonPhase(const std::vector<Beam>& beams) {
+  std::vector<double> phases;
+  for (const Beam& beam : beams) {
+    const double place = placeOf(beam);
+    phases.push_back(place - std::floor(place));
+  }
+  std::sort(phases.begin(), phases.end());
+  std::pair<double, std::size_t> best{0.0, 0};
+  const std::size_t n = phases.size();
+  for (std::size_t i = 0, last = 0; i < n; ++i) {
+    // From beam i on, once around the circle of phases.
+    const auto at = [&](std::size_t k) { return phases[k % n] + (k >= n ? 1.0 : 0.0); };
+    last = std::max(last, i);
+    while (last + 1 < i + n && at(last + 1) - phases[i] < kInPhase) ++last;
+    if (last - i + 1 > best.second) best = {phases[i] + 0.5 * (at(last) - phases[i]), last - i + 1};
+  }
+  return best;
+}
+
+}  // namespace
+
+BandQuery::BandQuery(const RangeScan& scan, const RobustCostParams& cost) {
+  std::vector<Beam> informative;
+  for (const Beam& beam : scan.beams()) {
+    if (beam.kind != BeamKind::invalid) informative.push_back(beam);
+  }
+  const auto [common, in_phase] = commonPhase(informative);
+  std::array<const Beam*, kBandBins> chosen{};
+  std::size_t occupied = 0;
+  for (const Beam& beam : informative) {
+    const auto bin = static_cast<std::size_t>(placeOf(beam)) % kBandBins;
+    occupied += chosen[bin] == nullptr;
+    chosen[bin] = &beam;
+  }
+  chosen.fill(nullptr);
+  // Enough: nearly as many as there are bins to be filled.
+  is_in_phase = 10 * in_phase >= 9 * occupied;
+  const double shift = is_in_phase ? common : 0.0;
+  phase = shift * kBandBinWidth;
+  std::array<double, kBandBins> distance;
+  distance.fill(2.0);
+  for (const Beam& beam : informative) {
+    const double place = placeOf(beam);
+    double off = offPhase(place, shift);
+    if (is_in_phase && std::abs(off) > kInPhase) continue;
+    const double begin = is_in_phase ? place - off : std::floor(place);
+    off = std::abs(place - begin) + (beam.kind == BeamKind::no_return ? 1.0 : 0.0);
+    const auto bin =
+        static_cast<std::size_t>(std::lround(begin - shift) + static_cast<long>(kBandBins)) %
+        kBandBins;
+    if (off < distance[bin]) {
+      distance[bin] = off;
+      chosen[bin] = &beam;
+    }
+  }
+  const auto in_units = [](double meters) {
+    return static_cast<std::uint16_t>(std::clamp(meters * RangeUnits::kPerMeter, 0.0, 65000.0));
+  };
+  for (std::size_t i = 0; i < kRoom; ++i) {
+    const Beam* beam = chosen[i % kBandBins];
+    if (beam == nullptr) continue;
+    if (beam->kind == BeamKind::hit) {
+      range[i] = in_units(beam->range + 0.5 / RangeUnits::kPerMeter);
+      cap_short[i] = in_units(cost.tau_short);
+      cap_long[i] = in_units(cost.tau_long);
+      cap_open[i] = in_units(cost.tau_open);
+    } else {
+      range[i] = in_units(cost.none_share * beam->range);
+      cap_long[i] = in_units(cost.tau_none);
+      no_return[i] = 0xFFFF;
+      has_no_returns = true;
+    }
+    if (i < kBandBins) beams.push_back(*beam);
+  }
+  constexpr std::size_t kLanes = 32;
+  for (std::size_t i = 0; i < kRoom; ++i) {
+    for (std::size_t k = i; k < std::min(i + kLanes, kRoom) && !informs_from[i]; ++k) {
+      informs_from[i] = chosen[k % kBandBins] != nullptr;
+    }
+  }
+}
+
+}  // namespace mrpt_polyloc

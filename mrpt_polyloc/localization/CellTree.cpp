@@ -1,0 +1,261 @@
+#include <mrpt_polyloc/geometry/convex_cells.h>
+#include <mrpt_polyloc/geometry/cpu_dispatch.h>
+#include <mrpt_polyloc/geometry/params_check.h>
+#include <mrpt_polyloc/localization/CellTree.h>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace mrpt_polyloc {
+namespace {
+
+constexpr std::size_t kStride = CellTree::kStride;
+constexpr std::size_t kArraysOfWalls = 2, kArraysWithOpen = 4;
+/// Array numbers of a node, see CellTree::Bands.
+constexpr std::size_t kNearLow = 0, kWallHigh = 1, kNearHigh = 2, kWallLow = 3;
+constexpr std::uint16_t kOpenBit = 1;
+
+/// Interleaves the bits of column and row: blocks of any level are then runs in this order.
+std::uint64_t mortonCode(std::uint32_t column, std::uint32_t row) {
+  std::uint64_t code = 0;
+  for (unsigned bit = 0; bit < 32; ++bit) {
+    code |= static_cast<std::uint64_t>((column >> bit) & 1U) << (2 * bit);
+    code |= static_cast<std::uint64_t>((row >> bit) & 1U) << (2 * bit + 1);
+  }
+  return code;
+}
+
+std::uint16_t roundDown(float range) {
+  const double units = std::floor(static_cast<double>(range) * RangeUnits::kPerMeter) - 1.0;
+  return static_cast<std::uint16_t>(std::clamp(units, 0.0, 65535.0));
+}
+/// Up to an even number.
+std::uint16_t roundUp(float range) {
+  const double units = 2.0 * std::ceil(0.5 * (static_cast<double>(range) * 128.0 + 1.0));
+  return static_cast<std::uint16_t>(std::clamp(units, 0.0, 65534.0));
+}
+
+/// Arrays of a node with all its bands, near apart from wall.
+struct Arrays {
+  std::array<std::uint16_t, kStride> values[kArraysWithOpen];
+};
+
+void encode(const RangeBands& bands, Arrays& to) {
+  for (std::size_t b = 0; b < kBandBins; ++b) {
+    const float near_low = std::min(bands.wall_low[b], bands.open_low[b]);
+    const float near_high = std::min(bands.wall_high[b], bands.open_high[b]);
+    const bool may_be_open =
+        bands.open_low[b] <= bands.wall_high[b] && std::isfinite(bands.open_low[b]);
+    to.values[kNearLow][b] = roundDown(near_low);
+    to.values[kWallHigh][b] = static_cast<std::uint16_t>(
+        (std::isfinite(bands.wall_high[b]) ? roundUp(bands.wall_high[b]) : 65534) |
+        (may_be_open ? kOpenBit : 0));
+    to.values[kNearHigh][b] =
+        std::isfinite(near_high) ? roundUp(near_high) : RangeUnits::kUnbounded;
+    to.values[kWallLow][b] = roundDown(bands.wall_low[b]);
+  }
+}
+
+/// The union of two bands, `from` taken `shift` bins on.
+POLYLOC_HOT_LOOP
+void widen(const std::uint16_t* __restrict__ from, std::size_t shift, std::size_t which,
+           std::uint16_t* __restrict__ to) {
+  const bool is_low = which == kNearLow || which == kWallLow;
+  const auto join = [&](std::size_t b, std::size_t source) {
+    const std::uint16_t a = to[b], c = from[source];
+    if (is_low) {
+      to[b] = std::min(a, c);
+    } else {
+      to[b] = std::max(a, c);
+      if (which == kWallHigh) {  // the greater one, its bit that of either
+        to[b] = static_cast<std::uint16_t>(to[b] | ((a | c) & kOpenBit));
+      }
+    }
+  };
+  for (std::size_t b = 0; b + shift < kBandBins; ++b) join(b, b + shift);
+  for (std::size_t b = kBandBins - shift; b < kBandBins; ++b) join(b, b + shift - kBandBins);
+}
+
+/// Bands over windows twice as wide.
+void doubleWindow(std::size_t window, Arrays& arrays) {
+  const Arrays before = arrays;
+  for (std::size_t which = 0; which < kArraysWithOpen; ++which) {
+    widen(before.values[which].data(), window, which, arrays.values[which].data());
+  }
+}
+
+void unite(const Arrays& from, Arrays& to) {
+  for (std::size_t which = 0; which < kArraysWithOpen; ++which) {
+    widen(from.values[which].data(), 0, which, to.values[which].data());
+  }
+}
+
+BoundingBox boxOf(const TPoint2D* vertices, std::size_t count) {
+  BoundingBox box{vertices[0], vertices[0]};
+  for (std::size_t i = 1; i < count; ++i) {
+    box.min = {std::min(box.min.x, vertices[i].x), std::min(box.min.y, vertices[i].y)};
+    box.max = {std::max(box.max.x, vertices[i].x), std::max(box.max.y, vertices[i].y)};
+  }
+  return box;
+}
+
+BoundingBox unionOf(const BoundingBox& a, const BoundingBox& b) {
+  return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y)},
+          {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y)}};
+}
+
+}  // namespace
+
+void CellTreeParams::check() const {
+  requireInRange("cell_size", cell_size, 0.01, 10.0);
+  requireInRange("threads", threads, 0.0, 1024.0);
+}
+
+CellTree::CellTree(const Triangulation& triangulation, const VisibleEdgeIndex& index,
+                   const CellTreeParams& params)
+    : cell_size_(params.cell_size) {
+  params.check();
+  takeCells(triangulation, params.threads);
+  layOut(index);
+  fill(index, params.threads);
+  squares_ = {};
+}
+
+/// Cells in the order of their blocks.
+void CellTree::takeCells(const Triangulation& triangulation, int threads) {
+  const ConvexCells found =
+      convexCells(triangulation, triangulation.box().min, cell_size_, threads);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+  for (std::size_t i = 0; i < found.cells.size(); ++i) {
+    const ConvexCells::Cell& cell = found.cells[i];
+    order.emplace_back(
+        mortonCode(static_cast<std::uint32_t>(cell.column), static_cast<std::uint32_t>(cell.row)),
+        static_cast<std::uint32_t>(i));
+  }
+  std::sort(order.begin(), order.end());
+  vertices_.reserve(found.vertices.size());
+  for (const auto& [code, i] : order) {
+    const ConvexCells::Cell& cell = found.cells[i];
+    squares_.emplace_back(cell.column, cell.row);
+    first_vertex_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+    const auto first = found.vertices.begin() + cell.first;
+    vertices_.insert(vertices_.end(), first, first + cell.count);
+    levels_[0].boxes.push_back(boxOf(&vertices_[first_vertex_.back()], cell.count));
+  }
+  first_vertex_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+}
+
+/// The nodes of all levels, with room for their arrays.
+void CellTree::layOut(const VisibleEdgeIndex& index) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> places = squares_;
+  for (std::size_t cell = 0; cell < squares_.size(); ++cell) {
+    const std::int64_t number = index.cellNumber(middle(cell));
+    const bool has_open = number < 0 || index.cell(number).open_runs > 0;
+    levels_[0].nodes.push_back({0, 0, 0, has_open});
+  }
+  for (std::size_t level = 1; level < kLevels; ++level) {
+    const Level& below = levels_[level - 1];
+    Level& here = levels_[level];
+    std::vector<std::pair<std::int32_t, std::int32_t>> blocks;
+    for (std::size_t i = 0; i < below.nodes.size(); ++i) {
+      // Level 1 takes squares, of which several cells may lie in one.
+      const std::pair<std::int32_t, std::int32_t> block{places[i].first >> 1,
+                                                        places[i].second >> 1};
+      if (blocks.empty() || blocks.back() != block) {
+        blocks.push_back(block);
+        here.nodes.push_back({static_cast<std::uint32_t>(i), 0, 0, false});
+        here.boxes.push_back(below.boxes[i]);
+      }
+      Node& node = here.nodes.back();
+      ++node.child_count;
+      node.has_open |= below.nodes[i].has_open;
+      here.boxes.back() = unionOf(here.boxes.back(), below.boxes[i]);
+    }
+    places = std::move(blocks);
+  }
+  for (Level& level : levels_) {
+    std::uint32_t arrays = 0;
+    for (Node& node : level.nodes) {
+      node.first_array = arrays;
+      arrays += static_cast<std::uint32_t>(node.has_open ? kArraysWithOpen : kArraysOfWalls);
+    }
+    level.codes.resize(static_cast<std::size_t>(arrays) * kStride + 1);  // windows read one ahead
+  }
+}
+
+std::uint16_t* CellTree::array(std::size_t level, std::size_t node, std::size_t which) {
+  Level& l = levels_[level];
+  return &l.codes[(l.nodes[node].first_array + which) * kStride];
+}
+
+void CellTree::fill(const VisibleEdgeIndex& index, int threads) {
+  const auto store = [this](const Arrays& arrays, std::size_t level, std::size_t node) {
+    const std::size_t count =
+        levels_[level].nodes[node].has_open ? kArraysWithOpen : kArraysOfWalls;
+    for (std::size_t which = 0; which < count; ++which) {
+      std::uint16_t* to = array(level, node, which);
+      const auto& from = arrays.values[which];
+      std::copy_n(from.begin(), kBandBins, to);
+      std::copy_n(from.begin(), kStride - kBandBins, to + kBandBins);
+    }
+  };
+  const auto build = [&](std::size_t first, std::size_t last) {
+    RangeBandFinder finder(index);
+    RangeBands bands;
+    // Depth first: what a node hands up is over windows of its own level's width.
+    const auto visit = [&](const auto& self, std::size_t level, std::size_t node,
+                           Arrays& arrays) -> void {
+      if (level == 0) {
+        finder.find(polygon(node), polygonSize(node), bands);
+        encode(bands, arrays);
+      } else {
+        const Node& n = levels_[level].nodes[node];
+        Arrays child;
+        for (std::uint32_t i = 0; i < n.child_count; ++i) {
+          self(self, level - 1, n.first_child + i, i == 0 ? arrays : child);
+          if (i > 0) unite(child, arrays);
+        }
+        if (kWindow[level] > kWindow[level - 1]) doubleWindow(kWindow[level - 1], arrays);
+      }
+      store(arrays, level, node);
+    };
+    Arrays arrays;
+    for (std::size_t i = first; i < last; ++i) visit(visit, kLevels - 1, i, arrays);
+  };
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    const tbb::blocked_range<std::size_t> all(0, levels_[kLevels - 1].nodes.size(), 4);
+    tbb::parallel_for(all, [&](const auto& range) { build(range.begin(), range.end()); });
+  });
+}
+
+CellTree::Bands CellTree::bands(std::size_t level, std::size_t node) const {
+  const Level& l = levels_[level];
+  const Node& n = l.nodes[node];
+  const std::uint16_t* first = &l.codes[n.first_array * kStride];
+  if (!n.has_open) return {first, first + kStride, nullptr, nullptr};
+  return {first, first + kStride, first + 2 * kStride, first + 3 * kStride};
+}
+
+TPoint2D CellTree::middle(std::size_t cell) const {
+  const TPoint2D* p = polygon(cell);
+  const std::size_t count = polygonSize(cell);
+  return std::accumulate(p, p + count, TPoint2D{0, 0}) * (1.0 / static_cast<double>(count));
+}
+
+std::size_t CellTree::bytes() const {
+  std::size_t sum =
+      vertices_.size() * sizeof(TPoint2D) + first_vertex_.size() * sizeof(std::uint32_t);
+  for (const Level& level : levels_) {
+    sum += level.nodes.size() * sizeof(Node) + level.boxes.size() * sizeof(BoundingBox) +
+           level.codes.size() * sizeof(std::uint16_t);
+  }
+  return sum;
+}
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <mrpt_polyloc/geometry/Triangulation.h>
+#include <mrpt_polyloc/localization/RangeBands.h>
+#include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace mrpt_polyloc {
+
+/// Ranges as integers, rounded so that bands only widen: by one unit, which also covers a scan's
+/// ranges that are rounded to the nearest unit.
+struct RangeUnits {
+  static constexpr double kPerMeter = 128.0;
+  static constexpr std::uint16_t kUnbounded = std::numeric_limits<std::uint16_t>::max();
+};
+
+struct CellTreeParams {
+  /// Side of the squares of the finest level [m]. Bounds get tighter, memory and time of building
+  /// grow with its inverse square. The index of visible edges must have squares of twice this size.
+  double cell_size = 0.25;
+  int threads = 0;  ///< 0: all cores
+
+  /// \throws InvalidParamsError naming the bad field.
+  void check() const;
+};
+
+/// The index of the certified search: free space cut into convex cells, each with its range bands,
+/// and above them a tree of square blocks, each twice as wide as those below, that hold all that
+/// their cells hold, over a window of headings that doubles as well.
+///
+/// On level l a block is 2^l cell sizes wide, and its bands are over 2^l bins: entry b bounds what
+/// is seen in the bins b to b + 2^l - 1. Level 0 holds the cells themselves.
+class CellTree {
+ public:
+  static constexpr std::size_t kLevels = 4;
+  static constexpr std::array<std::size_t, kLevels> kWindow = {1, 2, 4, 4};
+  /// Entries of an array: the bins, and the first ones again, for whole vectors and windows that
+  /// begin at any bin.
+  static constexpr std::size_t kStride = 192;
+
+  struct Node {
+    std::uint32_t first_child, child_count;  ///< in the level below; unused on level 0
+    std::uint32_t first_array;               ///< of the level's arrays
+    bool has_open;                           ///< then four arrays, else two
+  };
+
+  /// The bands of a node [RangeUnits]. `wall_high` is even but for its lowest bit, which is set
+  /// where an open edge may come before the wall. Without open edges near is wall.
+  struct Bands {
+    const std::uint16_t* near_low;
+    const std::uint16_t* wall_high;
+    const std::uint16_t* near_high;  ///< null without open edges
+    const std::uint16_t* wall_low;   ///< null without open edges
+  };
+
+  /// \param index over squares of twice the cell size, its corner that of the triangulated box
+  CellTree(const Triangulation& triangulation, const VisibleEdgeIndex& index,
+           const CellTreeParams& params = {});
+
+  double cellSize() const { return cell_size_; }
+  const std::vector<Node>& nodes(std::size_t level) const { return levels_[level].nodes; }
+  Bands bands(std::size_t level, std::size_t node) const;
+
+  /// The box that holds a node: the smallest one around a cell, and around its cells [m].
+  const BoundingBox& box(std::size_t level, std::size_t node) const {
+    return levels_[level].boxes[node];
+  }
+  /// The vertices of a cell, counterclockwise [m].
+  const TPoint2D* polygon(std::size_t cell) const { return &vertices_[first_vertex_[cell]]; }
+  std::size_t polygonSize(std::size_t cell) const {
+    return first_vertex_[cell + 1] - first_vertex_[cell];
+  }
+  /// The mean of its vertices [m].
+  TPoint2D middle(std::size_t cell) const;
+
+  std::size_t bytes() const;
+
+ private:
+  struct Level {
+    std::vector<Node> nodes;
+    std::vector<BoundingBox> boxes;
+    std::vector<std::uint16_t> codes;
+  };
+  void takeCells(const Triangulation& triangulation, int threads);
+  void layOut(const VisibleEdgeIndex& index);
+  void fill(const VisibleEdgeIndex& index, int threads);
+  std::uint16_t* array(std::size_t level, std::size_t node, std::size_t which);
+
+  double cell_size_;
+  std::vector<TPoint2D> vertices_;
+  std::vector<std::uint32_t> first_vertex_;
+  std::vector<std::pair<std::int32_t, std::int32_t>> squares_;  ///< of the cells; while building
+  std::array<Level, kLevels> levels_;
+};
+
+}  // namespace mrpt_polyloc
