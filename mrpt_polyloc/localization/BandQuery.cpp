@@ -76,16 +76,17 @@ BandQuery::BandQuery(const RangeScan& scan, const RobustCostParams& cost) {
   const auto in_units = [](double meters) {
     return static_cast<std::uint16_t>(std::clamp(meters * RangeUnits::kPerMeter, 0.0, 65000.0));
   };
+  cap_short = in_units(cost.tau_short);
+  cap_open = in_units(cost.tau_open);
+  short_range.fill(RangeUnits::kUnbounded);
+  cap_long.fill(in_units(cost.tau_long));
   for (std::size_t i = 0; i < kRoom; ++i) {
     const Beam* beam = chosen[i % kBandBins];
     if (beam == nullptr) continue;
     if (beam->kind == BeamKind::hit) {
-      range[i] = in_units(beam->range + 0.5 / RangeUnits::kPerMeter);
-      cap_short[i] = in_units(cost.tau_short);
-      cap_long[i] = in_units(cost.tau_long);
-      cap_open[i] = in_units(cost.tau_open);
+      short_range[i] = long_range[i] = in_units(beam->range + 0.5 / RangeUnits::kPerMeter);
     } else {
-      range[i] = in_units(cost.none_share * beam->range);
+      long_range[i] = in_units(cost.none_share * beam->range);
       cap_long[i] = in_units(cost.tau_none);
       no_return[i] = 0xFFFF;
       has_no_returns = true;

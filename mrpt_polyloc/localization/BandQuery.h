@@ -33,10 +33,14 @@ struct BandQuery {
                                  static_cast<double>(beams.size()));
   }
 
-  /// Arrays of entries by the bin of a beam's bearing, the circle twice; caps of 0: no beam.
-  /// No-returns fall short of nothing: they are hits at the range within which a wall would count.
-  alignas(64) std::array<std::uint16_t, kRoom> range{}, cap_short{}, cap_long{}, cap_open{};
+  /// By the bin of a beam's bearing, the circle twice [RangeUnits]: the range, where it is held
+  /// against what it may fall short of, or against what it may have passed. Without a beam the
+  /// former is the greatest and the latter 0, which cost nothing. A no-return falls short of
+  /// nothing, and has passed what stands within the range where a wall would count.
+  alignas(64) std::array<std::uint16_t, kRoom> short_range{}, long_range{};
+  alignas(64) std::array<std::uint16_t, kRoom> cap_long{};   ///< differs for no-returns
   alignas(64) std::array<std::uint16_t, kRoom> no_return{};  ///< all bits, or none
+  std::uint16_t cap_short = 0, cap_open = 0;
   std::array<bool, kRoom> informs_from{};  ///< whether a vector from there on holds a beam
   double phase = 0.0;                      ///< [rad], in [0, kBandBinWidth)
   bool is_in_phase = true;                 ///< every beam meets one bin per heading

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace mrpt_polyloc {
 namespace {
@@ -29,6 +28,13 @@ CellDescent::CellDescent(const CellTree& tree, const BandQuery& query, const Pos
       allowed_[level][h] = allowsHeading(level, h) ? 1 : 0;
     }
   }
+  for (std::uint32_t block = 0; block < tree_->nodes(kTop).size(); ++block) {
+    if (!allowsPosition(kTop, block)) continue;
+    const CellTree::Bands bands = tree_->bands(kTop, block);
+    for (std::uint32_t h = 0; h < kBins; h += windowOf(kTop)) consider(kTop, block, bands, h);
+  }
+  // Those of bound 0 wait as well.
+  waiting_[kTop].insert(waiting_[kTop].end(), within_[kTop].begin(), within_[kTop].end());
 }
 
 /// The prior speaks of the robot; its sensor is at most `sensor_distance_` away from it.
@@ -49,65 +55,51 @@ bool CellDescent::allowsHeading(std::size_t level, std::uint32_t heading) const 
 }
 
 void CellDescent::consider(std::size_t level, std::uint32_t index, const CellTree::Bands& bands,
-                           std::uint32_t heading, unsigned limit, std::vector<Node>& nodes) {
+                           std::uint32_t heading) {
   if (allowed_[level][heading] == 0) return;
   ++evaluated_;
   const unsigned bound = bandCost(bands, *query_, heading);
-  if (bound <= limit) nodes.push_back({index, heading, bound});
+  (bound <= limit_ ? within_ : waiting_)[level].push_back({index, heading, bound});
 }
 
-std::vector<std::vector<CellDescent::Node>> CellDescent::top() {
-  std::vector<std::vector<Node>> blocks;
-  for (std::uint32_t block = 0; block < tree_->nodes(kTop).size(); ++block) {
-    if (!allowsPosition(kTop, block)) continue;
-    std::vector<Node> nodes;
-    const CellTree::Bands bands = tree_->bands(kTop, block);
-    for (std::uint32_t h = 0; h < kBins; h += windowOf(kTop)) {
-      consider(kTop, block, bands, h, std::numeric_limits<unsigned>::max(), nodes);
-    }
-    if (!nodes.empty()) blocks.push_back(std::move(nodes));
-  }
-  const auto least = [](const std::vector<Node>& nodes) {
-    return std::min_element(nodes.begin(), nodes.end(),
-                            [](const Node& a, const Node& b) { return a.bound < b.bound; })
-        ->bound;
-  };
-  std::stable_sort(blocks.begin(), blocks.end(),
-                   [&](const auto& a, const auto& b) { return least(a) < least(b); });
-  return blocks;
-}
-
-/// Nodes of one index stand together, so that each child's bands are read once.
-void CellDescent::expand(std::size_t level, const std::vector<Node>& nodes, unsigned limit,
-                         std::vector<Node>& children) {
+void CellDescent::expand(std::size_t level, const std::vector<Node>& nodes, std::size_t first,
+                         std::size_t last) {
   const std::uint32_t step = windowOf(level - 1);
-  for (std::size_t first = 0, last = 0; first < nodes.size(); first = last) {
-    while (last < nodes.size() && nodes[last].index == nodes[first].index) ++last;
-    const CellTree::Node& node = tree_->nodes(level)[nodes[first].index];
-    for (std::uint32_t child = node.first_child; child < node.first_child + node.child_count;
-         ++child) {
-      if (!allowsPosition(level - 1, child)) continue;
-      const CellTree::Bands bands = tree_->bands(level - 1, child);
-      for (std::size_t k = first; k < last; ++k) {
-        if (nodes[k].bound > limit) continue;
-        const std::uint32_t end = nodes[k].heading + windowOf(level);
-        for (std::uint32_t heading = nodes[k].heading; heading < end; heading += step) {
-          consider(level - 1, child, bands, heading, limit, children);
-        }
+  const CellTree::Node& node = tree_->nodes(level)[nodes[first].index];
+  for (std::uint32_t child = node.first_child; child < node.first_child + node.child_count;
+       ++child) {
+    if (!allowsPosition(level - 1, child)) continue;
+    const CellTree::Bands bands = tree_->bands(level - 1, child);
+    for (std::size_t k = first; k < last; ++k) {
+      const std::uint32_t end = nodes[k].heading + windowOf(level);
+      for (std::uint32_t heading = nodes[k].heading; heading < end; heading += step) {
+        consider(level - 1, child, bands, heading);
       }
     }
   }
 }
 
-void CellDescent::descend(const std::vector<Node>& block, unsigned limit,
-                          std::vector<Node>& leaves) {
-  nodes_ = block;
-  for (std::size_t level = kTop; level > 0; --level) {
-    std::vector<Node>& to = level == 1 ? leaves : children_;
-    if (level > 1) children_.clear();
-    expand(level, nodes_, limit, to);
-    if (level > 1) std::swap(nodes_, children_);
+bool CellDescent::raise(unsigned limit, const std::function<bool()>& is_spent,
+                        std::vector<Node>& leaves) {
+  limit_ = limit;
+  for (std::size_t level = 0; level <= kTop; ++level) {
+    std::vector<Node>& waiting = waiting_[level];
+    const auto above = std::stable_partition(
+        waiting.begin(), waiting.end(), [limit](const Node& node) { return node.bound > limit; });
+    within_[level].assign(above, waiting.end());
+    waiting.erase(above, waiting.end());
   }
+  for (std::size_t level = kTop; level > 0; --level) {
+    const std::vector<Node>& nodes = within_[level];
+    // Nodes of one index mostly stand together: each child's bands are then read once.
+    for (std::size_t first = 0, last = 0; first < nodes.size(); first = last) {
+      while (last < nodes.size() && nodes[last].index == nodes[first].index) ++last;
+      expand(level, nodes, first, last);
+      if (is_spent()) return false;
+    }
+  }
+  leaves.insert(leaves.end(), within_[0].begin(), within_[0].end());
+  return true;
 }
 
 }  // namespace mrpt_polyloc

@@ -9,12 +9,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace mrpt_polyloc {
 
-/// The way down a CellTree with a limit: what is bounded above it, or not allowed by the prior, is
-/// left out.
+/// The way down a CellTree with a limit that rises: nodes bounded above the limit wait until it
+/// reaches them, so that nothing is done twice; what the prior does not allow is left out.
 class CellDescent {
  public:
   /// A node of the tree and a window of headings, the first bin of which is `heading`.
@@ -24,23 +25,26 @@ class CellDescent {
     unsigned bound;  ///< of the search cost [units of the query]
   };
 
-  /// Keeps references. \param sensor the beams' origin in the robot frame
+  /// Bounds all nodes of the top level. Keeps references. \param sensor the beams' origin in the
+  /// robot frame
   CellDescent(const CellTree& tree, const BandQuery& query, const PosePrior& prior,
               const mrpt::math::TPoint2D& sensor);
 
-  /// All windows of all blocks of the top level, block by block, those of the least bound first.
-  std::vector<std::vector<Node>> top();
+  bool isEmpty() const { return evaluated_ == 0; }  ///< the prior allows nothing
 
-  /// The (cell, heading) pairs below nodes of one block of the top level within the limit.
-  void descend(const std::vector<Node>& block, unsigned limit, std::vector<Node>& leaves);
+  /// Raises the limit: appends the (cell, heading) pairs bounded within it that were not before.
+  /// `is_spent` is asked now and then; true ends it early.
+  /// \returns false if so; the descent is then of no more use
+  bool raise(unsigned limit, const std::function<bool()>& is_spent, std::vector<Node>& leaves);
 
-  std::size_t evaluated() const { return evaluated_; }  ///< nodes so far
+  std::size_t evaluated() const { return evaluated_; }  ///< nodes bounded so far
 
  private:
-  void expand(std::size_t level, const std::vector<Node>& nodes, unsigned limit,
-              std::vector<Node>& children);
+  /// Bounds the children of nodes [first, last), which are of one index.
+  void expand(std::size_t level, const std::vector<Node>& nodes, std::size_t first,
+              std::size_t last);
   void consider(std::size_t level, std::uint32_t index, const CellTree::Bands& bands,
-                std::uint32_t heading, unsigned limit, std::vector<Node>& nodes);
+                std::uint32_t heading);
   bool allowsPosition(std::size_t level, std::uint32_t index) const;
   bool allowsHeading(std::size_t level, std::uint32_t heading) const;
 
@@ -49,7 +53,9 @@ class CellDescent {
   const PosePrior* prior_;
   double sensor_distance_;
   std::array<std::vector<char>, CellTree::kLevels> allowed_;  ///< headings, by level
-  std::vector<Node> nodes_, children_;
+  std::array<std::vector<Node>, CellTree::kLevels> waiting_;  ///< above the limit, by level
+  std::array<std::vector<Node>, CellTree::kLevels> within_;   ///< to be expanded
+  unsigned limit_ = 0;
   std::size_t evaluated_ = 0;
 };
 

@@ -12,6 +12,12 @@
 #include <numeric>
 
 namespace mrpt_polyloc {
+
+/// Arrays of a node with all its bands, near apart from wall; see CellTree::Bands.
+struct BandArrays {
+  std::array<std::array<std::uint16_t, CellTree::kStride>, 4> values;
+};
+
 namespace {
 
 constexpr std::size_t kStride = CellTree::kStride;
@@ -40,12 +46,7 @@ std::uint16_t roundUp(float range) {
   return static_cast<std::uint16_t>(std::clamp(units, 0.0, 65534.0));
 }
 
-/// Arrays of a node with all its bands, near apart from wall.
-struct Arrays {
-  std::array<std::uint16_t, kStride> values[kArraysWithOpen];
-};
-
-void encode(const RangeBands& bands, Arrays& to) {
+void encode(const RangeBands& bands, BandArrays& to) {
   for (std::size_t b = 0; b < kBandBins; ++b) {
     const float near_low = std::min(bands.wall_low[b], bands.open_low[b]);
     const float near_high = std::min(bands.wall_high[b], bands.open_high[b]);
@@ -82,17 +83,23 @@ void widen(const std::uint16_t* __restrict__ from, std::size_t shift, std::size_
 }
 
 /// Bands over windows twice as wide.
-void doubleWindow(std::size_t window, Arrays& arrays) {
-  const Arrays before = arrays;
+void doubleWindow(std::size_t window, BandArrays& arrays) {
+  const BandArrays before = arrays;
   for (std::size_t which = 0; which < kArraysWithOpen; ++which) {
     widen(before.values[which].data(), window, which, arrays.values[which].data());
   }
 }
 
-void unite(const Arrays& from, Arrays& to) {
+void unite(const BandArrays& from, BandArrays& to) {
   for (std::size_t which = 0; which < kArraysWithOpen; ++which) {
     widen(from.values[which].data(), 0, which, to.values[which].data());
   }
+}
+
+/// The bins, and the first ones again to the array's end.
+void copyAround(const std::uint16_t* from, std::uint16_t* to) {
+  std::copy_n(from, kBandBins, to);
+  std::copy_n(from, kStride - kBandBins, to + kBandBins);
 }
 
 BoundingBox boxOf(const TPoint2D* vertices, std::size_t count) {
@@ -116,13 +123,13 @@ void CellTreeParams::check() const {
   requireInRange("threads", threads, 0.0, 1024.0);
 }
 
-CellTree::CellTree(const Triangulation& triangulation, const VisibleEdgeIndex& index,
+CellTree::CellTree(const Triangulation& triangulation, const RangePredictor& predictor,
                    const CellTreeParams& params)
     : cell_size_(params.cell_size) {
   params.check();
   takeCells(triangulation, params.threads);
-  layOut(index);
-  fill(index, params.threads);
+  layOut(predictor.index());
+  fill(predictor, params.threads);
   squares_ = {};
 }
 
@@ -184,47 +191,71 @@ void CellTree::layOut(const VisibleEdgeIndex& index) {
       node.first_array = arrays;
       arrays += static_cast<std::uint32_t>(node.has_open ? kArraysWithOpen : kArraysOfWalls);
     }
-    level.codes.resize(static_cast<std::size_t>(arrays) * kStride + 1);  // windows read one ahead
+    level.codes.resize(static_cast<std::size_t>(arrays) * kStride + 1);  // beams read one ahead
+  }
+  std::uint32_t views = 0;
+  for (const Node& node : levels_[0].nodes) {
+    first_view_.push_back(views);
+    views += node.has_open ? 2 : 1;
+  }
+  views_.resize(static_cast<std::size_t>(views) * kStride + 1);
+}
+
+void CellTree::storeBands(const BandArrays& arrays, std::size_t level, std::size_t node) {
+  Level& l = levels_[level];
+  const Node& n = l.nodes[node];
+  const std::size_t count = n.has_open ? kArraysWithOpen : kArraysOfWalls;
+  for (std::size_t which = 0; which < count; ++which) {
+    copyAround(arrays.values[which].data(), &l.codes[(n.first_array + which) * kStride]);
   }
 }
 
-std::uint16_t* CellTree::array(std::size_t level, std::size_t node, std::size_t which) {
-  Level& l = levels_[level];
-  return &l.codes[(l.nodes[node].first_array + which) * kStride];
+void CellTree::storeView(const PredictedRanges& ranges, std::size_t cell) {
+  std::array<std::uint16_t, kStride> near{}, wall{};
+  const auto in_units = [](float range) {
+    return static_cast<std::uint16_t>(
+        std::min(range * static_cast<float>(RangeUnits::kPerMeter), 65534.0F));
+  };
+  for (std::size_t b = 0; b < kBandBins; ++b) {
+    const bool is_open = ranges.open[b] < ranges.wall[b];
+    near[b] = in_units(std::min(ranges.wall[b], ranges.open[b]));
+    wall[b] = static_cast<std::uint16_t>((in_units(ranges.wall[b]) & ~kOpenBit) |
+                                         (is_open ? kOpenBit : 0));
+  }
+  std::uint16_t* to = &views_[first_view_[cell] * kStride];
+  copyAround(wall.data(), to);
+  if (levels_[0].nodes[cell].has_open) copyAround(near.data(), to + kStride);
 }
 
-void CellTree::fill(const VisibleEdgeIndex& index, int threads) {
-  const auto store = [this](const Arrays& arrays, std::size_t level, std::size_t node) {
-    const std::size_t count =
-        levels_[level].nodes[node].has_open ? kArraysWithOpen : kArraysOfWalls;
-    for (std::size_t which = 0; which < count; ++which) {
-      std::uint16_t* to = array(level, node, which);
-      const auto& from = arrays.values[which];
-      std::copy_n(from.begin(), kBandBins, to);
-      std::copy_n(from.begin(), kStride - kBandBins, to + kBandBins);
-    }
-  };
+void CellTree::fill(const RangePredictor& predictor, int threads) {
+  std::vector<double> bearings(kBandBins);
+  for (std::size_t b = 0; b < kBandBins; ++b) bearings[b] = static_cast<double>(b) * kBandBinWidth;
+  const BeamPattern pattern(bearings);
   const auto build = [&](std::size_t first, std::size_t last) {
-    RangeBandFinder finder(index);
+    RangeBandFinder finder(predictor.index());
     RangeBands bands;
+    PredictedRanges ranges;
     // Depth first: what a node hands up is over windows of its own level's width.
     const auto visit = [&](const auto& self, std::size_t level, std::size_t node,
-                           Arrays& arrays) -> void {
+                           BandArrays& arrays) -> void {
       if (level == 0) {
         finder.find(polygon(node), polygonSize(node), bands);
         encode(bands, arrays);
+        const TPoint2D p = middle(node);
+        predictor.predict({p.x, p.y, 0.0}, pattern, ranges);
+        storeView(ranges, node);
       } else {
         const Node& n = levels_[level].nodes[node];
-        Arrays child;
+        BandArrays child;
         for (std::uint32_t i = 0; i < n.child_count; ++i) {
           self(self, level - 1, n.first_child + i, i == 0 ? arrays : child);
           if (i > 0) unite(child, arrays);
         }
         if (kWindow[level] > kWindow[level - 1]) doubleWindow(kWindow[level - 1], arrays);
       }
-      store(arrays, level, node);
+      storeBands(arrays, level, node);
     };
-    Arrays arrays;
+    BandArrays arrays;
     for (std::size_t i = first; i < last; ++i) visit(visit, kLevels - 1, i, arrays);
   };
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
@@ -232,6 +263,12 @@ void CellTree::fill(const VisibleEdgeIndex& index, int threads) {
     const tbb::blocked_range<std::size_t> all(0, levels_[kLevels - 1].nodes.size(), 4);
     tbb::parallel_for(all, [&](const auto& range) { build(range.begin(), range.end()); });
   });
+}
+
+CellTree::Bands CellTree::middleView(std::size_t cell) const {
+  const std::uint16_t* wall = &views_[first_view_[cell] * kStride];
+  if (!levels_[0].nodes[cell].has_open) return {wall, wall, nullptr, nullptr};
+  return {wall + kStride, wall, wall + kStride, wall};
 }
 
 CellTree::Bands CellTree::bands(std::size_t level, std::size_t node) const {
@@ -249,8 +286,9 @@ TPoint2D CellTree::middle(std::size_t cell) const {
 }
 
 std::size_t CellTree::bytes() const {
-  std::size_t sum =
-      vertices_.size() * sizeof(TPoint2D) + first_vertex_.size() * sizeof(std::uint32_t);
+  std::size_t sum = vertices_.size() * sizeof(TPoint2D) + views_.size() * sizeof(std::uint16_t) +
+                    first_view_.size() * sizeof(std::uint32_t) +
+                    first_vertex_.size() * sizeof(std::uint32_t);
   for (const Level& level : levels_) {
     sum += level.nodes.size() * sizeof(Node) + level.boxes.size() * sizeof(BoundingBox) +
            level.codes.size() * sizeof(std::uint16_t);

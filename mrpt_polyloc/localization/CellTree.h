@@ -2,7 +2,7 @@
 
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/RangeBands.h>
-#include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
+#include <mrpt_polyloc/visibility/RangePredictor.h>
 
 #include <array>
 #include <cstddef>
@@ -58,8 +58,8 @@ class CellTree {
     const std::uint16_t* wall_low;   ///< null without open edges
   };
 
-  /// \param index over squares of twice the cell size, its corner that of the triangulated box
-  CellTree(const Triangulation& triangulation, const VisibleEdgeIndex& index,
+  /// \param predictor its index over squares of twice the cell size
+  CellTree(const Triangulation& triangulation, const RangePredictor& predictor,
            const CellTreeParams& params = {});
 
   double cellSize() const { return cell_size_; }
@@ -77,6 +77,8 @@ class CellTree {
   }
   /// The mean of its vertices [m].
   TPoint2D middle(std::size_t cell) const;
+  /// What is predicted from there in the directions where the bins begin: bands without width.
+  Bands middleView(std::size_t cell) const;
 
   std::size_t bytes() const;
 
@@ -88,14 +90,17 @@ class CellTree {
   };
   void takeCells(const Triangulation& triangulation, int threads);
   void layOut(const VisibleEdgeIndex& index);
-  void fill(const VisibleEdgeIndex& index, int threads);
-  std::uint16_t* array(std::size_t level, std::size_t node, std::size_t which);
+  void fill(const RangePredictor& predictor, int threads);
+  void storeBands(const struct BandArrays& arrays, std::size_t level, std::size_t node);
+  void storeView(const PredictedRanges& ranges, std::size_t cell);
 
   double cell_size_;
   std::vector<TPoint2D> vertices_;
   std::vector<std::uint32_t> first_vertex_;
   std::vector<std::pair<std::int32_t, std::int32_t>> squares_;  ///< of the cells; while building
   std::array<Level, kLevels> levels_;
+  std::vector<std::uint32_t> first_view_;  ///< of the cells' arrays in `views_`
+  std::vector<std::uint16_t> views_;       ///< near and wall, or wall alone
 };
 
 }  // namespace mrpt_polyloc

@@ -4,7 +4,6 @@
 #include <mrpt_polyloc/localization/CellTree.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 #include <mrpt_polyloc/localization/PoseCandidate.h>
-#include <mrpt_polyloc/visibility/RangePredictor.h>
 
 #include <mrpt/math/TPose2D.h>
 
@@ -57,16 +56,14 @@ struct CertifiedSearchResult {
 /// Moves a pose of the beam frame to where the scan fits better; returns its search cost [m].
 using RefinedCost = std::function<double(const mrpt::math::TPose2D& pose_map_beams)>;
 
-/// Branch and bound over (cell, window of headings). Descends with a low limit first, then with the
-/// least cost that the poses found there have once refined, plus the margin: whatever is bounded
-/// above it is left out, block by block and level by level; what remains of the cells are the
-/// regions.
+/// Branch and bound over (cell, window of headings). The limit rises by doubling, until it reaches
+/// the least cost that the poses found on the way have once refined, plus the margin. What is
+/// bounded above it is left out; what remains of the cells are the regions.
 ///
 /// \param sensor the beams' origin in the robot frame, to hold `prior`, which speaks of the robot,
 /// against
-CertifiedSearchResult searchCells(const CellTree& tree, const RangePredictor& predictor,
-                                  const BandQuery& query, const PosePrior& prior,
-                                  const mrpt::math::TPoint2D& sensor,
+CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
+                                  const PosePrior& prior, const mrpt::math::TPoint2D& sensor,
                                   const RefinedCost& refined_cost,
                                   const CertifiedSearchParams& params = {});
 

@@ -73,8 +73,7 @@ struct GlobalLocalizer::Impl {
                                                            : RangePredictor::kCellSize,
                   params.threads) {
     if (params.method == SearchMethod::certified) {
-      cells.emplace(triangulation, predictor.index(),
-                    CellTreeParams{params.cell_size, params.threads});
+      cells.emplace(triangulation, predictor, CellTreeParams{params.cell_size, params.threads});
     } else {
       pyramid.emplace(predictor, searchPositions(triangulation, params.spacing),
                       triangulation.box().min, params.spacing, params.threads);
@@ -126,7 +125,7 @@ std::vector<TPose2D> GlobalLocalizer::Impl::searchCertified(const RangeScan& sca
   const ScanCost cost(predictor, searched, params.search_cost);
   const PoseRefiner refiner(predictor, searched, params.refinement);
   const CertifiedSearchResult found = searchCells(
-      *cells, predictor, query, prior, scan.sensor(),
+      *cells, query, prior, scan.sensor(),
       [&](const TPose2D& pose) {
         return std::min(cost.mean(pose), cost.mean(refiner.refine(pose).pose_map_beams));
       },

@@ -28,23 +28,35 @@ inline __attribute__((always_inline)) void takeExcess(Lanes& a, const Lanes& b, 
   lower(a, cap);
 }
 
+/// The entries of the last vector that still are bins; the rest of an array repeats its begin.
+constexpr std::size_t kLastBins = kBandBins % kLanes;
+static_assert(kLastBins > 0);
+struct LastBins {
+  alignas(64) std::uint16_t mask[kLanes] = {};
+  constexpr LastBins() {
+    for (std::size_t i = 0; i < kLastBins; ++i) mask[i] = 0xFFFF;
+  }
+};
+constexpr LastBins kLast;
+
 /// With z the scan's range: z below near_low falls short of all; z above wall_high has passed every
 /// wall; z between near_high and wall_low has passed an open edge everywhere and ends before every
 /// wall.
-template <bool has_open, bool is_in_phase>
+template <bool has_open, bool is_in_phase, bool has_no_returns>
 inline __attribute__((always_inline)) unsigned sumCosts(const CellTree::Bands& bands,
                                                         const BandQuery& query,
                                                         std::size_t heading) {
+  const Lanes cap_short = Lanes{} + query.cap_short, cap_open = Lanes{} + query.cap_open;
+  Lanes cap_long = Lanes{} + query.cap_long[0];
   Lanes sums{};
   for (std::size_t first = 0; first < kBandBins; first += kLanes) {
     const std::size_t rotated = first + kBandBins - heading;
     if (!query.informs_from[rotated]) continue;
-    Lanes near_low, wall_high, z, cap_short, cap_long;
+    Lanes near_low, wall_high, short_range, beyond;
     load(bands.near_low + first, near_low);
     load(bands.wall_high + first, wall_high);
-    load(query.range.data() + rotated, z);
-    load(query.cap_short.data() + rotated, cap_short);
-    load(query.cap_long.data() + rotated, cap_long);
+    load(query.short_range.data() + rotated, short_range);
+    load(query.long_range.data() + rotated, beyond);
     if (!is_in_phase) {  // a beam may meet the next bin, too
       Lanes next_low, next_high;
       load(bands.near_low + first + 1, next_low);
@@ -54,20 +66,19 @@ inline __attribute__((always_inline)) unsigned sumCosts(const CellTree::Bands& b
       raise(wall_high, next_high);
       wall_high |= may_be_open;
     }
-    Lanes beyond = z;
+    if (has_no_returns) load(query.cap_long.data() + rotated, cap_long);
     takeExcess(beyond, wall_high, cap_long);
+    takeExcess(near_low, short_range, cap_short);
     Lanes costs = near_low;
-    takeExcess(costs, z, cap_short);
     if (has_open) {
-      if (query.has_no_returns) {  // past an open edge, nothing need return
+      if (has_no_returns) {  // past an open edge, nothing need return
         Lanes no_return;
         load(query.no_return.data() + rotated, no_return);
         beyond &= ~(no_return & (Lanes{} - (wall_high & 1)));
       }
-      Lanes near_high, wall_low, cap_open;
+      Lanes near_high, wall_low;
       load(bands.near_high + first, near_high);
       load(bands.wall_low + first, wall_low);
-      load(query.cap_open.data() + rotated, cap_open);
       if (!is_in_phase) {
         Lanes next_high, next_low;
         load(bands.near_high + first + 1, next_high);
@@ -75,15 +86,14 @@ inline __attribute__((always_inline)) unsigned sumCosts(const CellTree::Bands& b
         raise(near_high, next_high);
         lower(wall_low, next_low);
       }
-      takeExcess(wall_low, z, cap_open);
-      costs += z >= near_high ? wall_low : Lanes{};
+      takeExcess(wall_low, short_range, cap_open);
+      costs += short_range >= near_high ? wall_low : Lanes{};
     }
     costs += beyond;
-    if (first + kLanes > kBandBins) {  // the rest of the array repeats its begin
-      Lanes kRest = {};
-      for (int i = 0; i < 20; ++i) kRest[i] = 0xFFFF;
-      static_assert(kBandBins % kLanes == 20);
-      costs &= kRest;
+    if (first + kLanes > kBandBins) {
+      Lanes last;
+      load(kLast.mask, last);
+      costs &= last;
     }
     sums += costs;
   }
@@ -94,17 +104,25 @@ inline __attribute__((always_inline)) unsigned sumCosts(const CellTree::Bands& b
   return sum;
 }
 
+template <bool has_open, bool is_in_phase>
+inline __attribute__((always_inline)) unsigned chooseByReturns(const CellTree::Bands& bands,
+                                                               const BandQuery& query,
+                                                               std::size_t heading) {
+  return query.has_no_returns ? sumCosts<has_open, is_in_phase, true>(bands, query, heading)
+                              : sumCosts<has_open, is_in_phase, false>(bands, query, heading);
+}
+
 }  // namespace
 
 POLYLOC_HOT_LOOP
 unsigned bandCost(const CellTree::Bands& bands, const BandQuery& query, std::size_t heading) {
   const bool has_open = bands.near_high != nullptr;
   if (query.is_in_phase) {
-    return has_open ? sumCosts<true, true>(bands, query, heading)
-                    : sumCosts<false, true>(bands, query, heading);
+    return has_open ? chooseByReturns<true, true>(bands, query, heading)
+                    : chooseByReturns<false, true>(bands, query, heading);
   }
-  return has_open ? sumCosts<true, false>(bands, query, heading)
-                  : sumCosts<false, false>(bands, query, heading);
+  return has_open ? chooseByReturns<true, false>(bands, query, heading)
+                  : chooseByReturns<false, false>(bands, query, heading);
 }
 
 }  // namespace mrpt_polyloc
