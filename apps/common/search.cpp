@@ -1,8 +1,10 @@
 #include "search.h"
 
+#include "OutputFiles.h"
 #include "Progress.h"
 #include "map_input.h"
 #include "view_polygons.h"
+#include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/localization/ExactLocalizer.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 
@@ -12,7 +14,12 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
 #include <utility>
 
 namespace mrpt_polyloc::apps {
@@ -33,14 +40,44 @@ void checkMethod(const std::string& method) {
   throw UsageError("--method: unknown method '" + method + "'; there is: " + kBuiltMethods);
 }
 
+/// \throws UsageError for options that do not go with the method.
+void checkTogether(const SearchOptions& search) {
+  if (search.method == "certified") return;
+  if (!search.index.empty()) throw UsageError("--index needs --method certified");
+  if (search.time_budget_ms > 0.0) throw UsageError("--time-budget needs --method certified");
+}
+
+/// The content of a file; none if there is no such file. \throws FormatError if it cannot be read
+std::optional<std::string> readIfThere(const std::string& path) {
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream content;
+  content << file.rdbuf();
+  if (!file || content.str().empty()) throw FormatError(path, "", "cannot be read, or is empty");
+  return content.str();
+}
+
+std::shared_ptr<const GlobalLocalizer> makeShared(PolygonMap map, const std::string& index,
+                                                  const GlobalLocalizerParams& params) {
+  if (index.empty()) return std::make_shared<const GlobalLocalizer>(std::move(map), params);
+  if (const std::optional<std::string> content = readIfThere(index)) {
+    return std::make_shared<const GlobalLocalizer>(std::move(map), *content, index, params);
+  }
+  requireWritable(index);
+  auto localizer = std::make_shared<const GlobalLocalizer>(std::move(map), params);
+  writeFile(index, localizer->serializedIndex());
+  return localizer;
+}
+
 ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
   GlobalLocalizerParams params;
   params.method =
       search.method == "exhaustive" ? SearchMethod::exhaustive : SearchMethod::certified;
   params.max_hypotheses = search.max_hypotheses;
   params.threads = static_cast<int>(search.threads);
+  params.certified.time_budget_ms = search.time_budget_ms;
   // Shared, for a std::function must be copyable.
-  const auto localizer = std::make_shared<const GlobalLocalizer>(std::move(map), params);
+  const auto localizer = makeShared(std::move(map), search.index, params);
   return {localizer->map(),
           [localizer](const RangeScan& scan, const PosePrior& prior) {
             return localizer->localize(scan, prior);
@@ -71,6 +108,7 @@ LocalizedScan localizeOne(const ScanLocalizer& localizer, const RangeScan& scan,
 }  // namespace
 
 void addSearchOptions(CLI::App& options, SearchOptions& search) {
+  options.parse_complete_callback([&search] { checkTogether(search); });
   addText(options, "--map", search.map, kMapFormats)->required()->type_name("MAP");
   addText(options, "--scans", search.scans,
           "The scans: .rawlog or CARMEN .log/.clf, plain or gz; for --method exact .wkt")
@@ -94,6 +132,15 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
            "Threads for the index and for scans at once [default: all cores for the index, one "
            "scan at a time]")
       ->type_name("N");
+}
+
+void addCertifiedOptions(CLI::App& options, SearchOptions& search) {
+  addText(options, "--index", search.index,
+          "Keep the index of the certified search in this file: read if it is there, else written")
+      ->type_name("FILE");
+  addNumber(options, "--time-budget", search.time_budget_ms, {0.0, 1e9, true},
+            "Most time for the certified search of a scan; what it then has proven is less")
+      ->type_name("MS");
 }
 
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search) {

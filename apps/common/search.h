@@ -19,6 +19,8 @@ struct SearchOptions {
   std::string map;
   std::string scans;
   std::string method = "certified";
+  std::string index;            ///< file to keep the certified search's index in; empty: none
+  double time_budget_ms = 0.0;  ///< of the certified search; 0: none
   std::uint64_t max_hypotheses = 20;
   /// Threads for the index, and for scans at once; 0 (not given): all cores for the index, and one
   /// scan after the other, so that the times of a scan mean something.
@@ -36,7 +38,11 @@ struct ScanLocalizer {
   std::size_t index_bytes = 0;  ///< memory of what was prepared
 };
 
-/// Prepares the search of `search.method` in a map.
+/// Adds --index and --time-budget, which are usage errors with another method than certified.
+void addCertifiedOptions(CLI::App& options, SearchOptions& search);
+
+/// Prepares the search of `search.method` in a map. Reads `search.index` if it is there, else writes
+/// it. \throws FormatError naming it
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search);
 
 /// What the method searches for: the scans of a log or, for `exact`, the polygons of a WKT file

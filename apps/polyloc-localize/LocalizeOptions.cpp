@@ -48,22 +48,6 @@ void addScanOptions(CLI::App& cli, LocalizeOptions& options) {
       ->type_name("DEG");
 }
 
-/// Flags of the design whose method is not there yet: refused rather than ignored.
-void addPlannedOptions(CLI::App& cli) {
-  cli.add_option_function<std::string>(
-         "--index", [](const std::string&) { throw UsageError("--index is not built yet"); },
-         "Keep the search index in a file (not built yet)")
-      ->type_name("FILE");
-  cli.add_option_function<std::string>(
-         "--time-budget",
-         [](const std::string&) {
-           throw UsageError(
-               "the exhaustive search always finishes; --time-budget needs --method certified");
-         },
-         "Most time for a scan; needs --method certified (not built yet)")
-      ->type_name("MS");
-}
-
 void addOutputOptions(CLI::App& cli, LocalizeOptions& options) {
   addText(cli, "--svg", options.svg,
           "Draw the map, the last localized scan with its hypotheses, and the path of the best")
@@ -82,7 +66,7 @@ void addOptions(CLI::App& cli, LocalizeOptions& options) {
   addSearchOptions(cli, options.search);
   addPriorOptions(cli, options);
   addScanOptions(cli, options);
-  addPlannedOptions(cli);
+  addCertifiedOptions(cli, options.search);
   addOutputOptions(cli, options);
 }
 

@@ -53,8 +53,8 @@ BandQuery::BandQuery(const RangeScan& scan, const RobustCostParams& cost) {
     chosen[bin] = &beam;
   }
   chosen.fill(nullptr);
-  // Enough: nearly as many as there are bins to be filled.
-  is_in_phase = 10 * in_phase >= 9 * occupied;
+  // Enough: most of the bins that could be filled; some beams may be invalid.
+  is_in_phase = 2 * in_phase >= occupied;
   const double shift = is_in_phase ? common : 0.0;
   phase = shift * kBandBinWidth;
   std::array<double, kBandBins> distance;

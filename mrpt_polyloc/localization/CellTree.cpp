@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/geometry/convex_cells.h>
 #include <mrpt_polyloc/geometry/cpu_dispatch.h>
+#include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/CellTree.h>
 
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
+#include <utility>
 
 namespace mrpt_polyloc {
 
@@ -42,7 +45,8 @@ std::uint16_t roundDown(float range) {
 }
 /// Up to an even number.
 std::uint16_t roundUp(float range) {
-  const double units = 2.0 * std::ceil(0.5 * (static_cast<double>(range) * 128.0 + 1.0));
+  const double units =
+      2.0 * std::ceil(0.5 * (static_cast<double>(range) * RangeUnits::kPerMeter + 1.0));
   return static_cast<std::uint16_t>(std::clamp(units, 0.0, 65534.0));
 }
 
@@ -124,19 +128,47 @@ void CellTreeParams::check() const {
 }
 
 CellTree::CellTree(const Triangulation& triangulation, const RangePredictor& predictor,
-                   const CellTreeParams& params)
-    : cell_size_(params.cell_size) {
+                   const CellTreeParams& params) {
   params.check();
-  takeCells(triangulation, params.threads);
-  layOut(predictor.index());
+  data_.cell_size = params.cell_size;
+  layOut(predictor.index(), takeCells(triangulation, params.threads));
   fill(predictor, params.threads);
-  squares_ = {};
+}
+
+CellTree::CellTree(Data data) : data_(std::move(data)) {
+  const auto require = [](bool is_met, const char* what) {
+    if (!is_met) throw InvalidMapError(std::string("cell tree: bad ") + what);
+  };
+  const std::size_t cells = data_.levels[0].nodes.size();
+  require(data_.cell_size > 0.0, "cell size");
+  require(data_.first_vertex.size() == cells + 1 && data_.first_vertex.front() == 0 &&
+              data_.first_vertex.back() == data_.vertices.size() &&
+              std::is_sorted(data_.first_vertex.begin(), data_.first_vertex.end()),
+          "polygons");
+  require(data_.first_view.size() == cells, "views");
+  for (std::size_t i = 0; i < cells; ++i) {
+    const std::size_t end =
+        data_.first_view[i] + (data_.levels[0].nodes[i].has_open != 0 ? 2U : 1U);
+    require(end * kStride < data_.views.size(), "views");
+    require(polygonSize(i) >= 3, "polygons");
+  }
+  for (std::size_t level = 0; level < kLevels; ++level) {
+    const Level& l = data_.levels[level];
+    require(l.boxes.size() == l.nodes.size(), "boxes");
+    for (const Node& node : l.nodes) {
+      const std::size_t arrays = node.has_open != 0 ? kArraysWithOpen : kArraysOfWalls;
+      require((node.first_array + arrays) * kStride < l.codes.size(), "arrays");
+      require(level == 0 || std::size_t{node.first_child} + node.child_count <=
+                                data_.levels[level - 1].nodes.size(),
+              "children");
+    }
+  }
 }
 
 /// Cells in the order of their blocks.
-void CellTree::takeCells(const Triangulation& triangulation, int threads) {
+CellTree::Squares CellTree::takeCells(const Triangulation& triangulation, int threads) {
   const ConvexCells found =
-      convexCells(triangulation, triangulation.box().min, cell_size_, threads);
+      convexCells(triangulation, triangulation.box().min, data_.cell_size, threads);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
   for (std::size_t i = 0; i < found.cells.size(); ++i) {
     const ConvexCells::Cell& cell = found.cells[i];
@@ -145,37 +177,39 @@ void CellTree::takeCells(const Triangulation& triangulation, int threads) {
         static_cast<std::uint32_t>(i));
   }
   std::sort(order.begin(), order.end());
-  vertices_.reserve(found.vertices.size());
+  Squares squares;
+  data_.vertices.reserve(found.vertices.size());
   for (const auto& [code, i] : order) {
     const ConvexCells::Cell& cell = found.cells[i];
-    squares_.emplace_back(cell.column, cell.row);
-    first_vertex_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+    squares.emplace_back(cell.column, cell.row);
+    data_.first_vertex.push_back(static_cast<std::uint32_t>(data_.vertices.size()));
     const auto first = found.vertices.begin() + cell.first;
-    vertices_.insert(vertices_.end(), first, first + cell.count);
-    levels_[0].boxes.push_back(boxOf(&vertices_[first_vertex_.back()], cell.count));
+    data_.vertices.insert(data_.vertices.end(), first, first + cell.count);
+    data_.levels[0].boxes.push_back(boxOf(&data_.vertices[data_.first_vertex.back()], cell.count));
   }
-  first_vertex_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+  data_.first_vertex.push_back(static_cast<std::uint32_t>(data_.vertices.size()));
+  return squares;
 }
 
 /// The nodes of all levels, with room for their arrays.
-void CellTree::layOut(const VisibleEdgeIndex& index) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> places = squares_;
-  for (std::size_t cell = 0; cell < squares_.size(); ++cell) {
+void CellTree::layOut(const VisibleEdgeIndex& index, Squares squares) {
+  Squares places = std::move(squares);
+  for (std::size_t cell = 0; cell < places.size(); ++cell) {
     const std::int64_t number = index.cellNumber(middle(cell));
     const bool has_open = number < 0 || index.cell(number).open_runs > 0;
-    levels_[0].nodes.push_back({0, 0, 0, has_open});
+    data_.levels[0].nodes.push_back({0, 0, 0, has_open ? 1U : 0U});
   }
   for (std::size_t level = 1; level < kLevels; ++level) {
-    const Level& below = levels_[level - 1];
-    Level& here = levels_[level];
-    std::vector<std::pair<std::int32_t, std::int32_t>> blocks;
+    const Level& below = data_.levels[level - 1];
+    Level& here = data_.levels[level];
+    Squares blocks;
     for (std::size_t i = 0; i < below.nodes.size(); ++i) {
       // Level 1 takes squares, of which several cells may lie in one.
       const std::pair<std::int32_t, std::int32_t> block{places[i].first >> 1,
                                                         places[i].second >> 1};
       if (blocks.empty() || blocks.back() != block) {
         blocks.push_back(block);
-        here.nodes.push_back({static_cast<std::uint32_t>(i), 0, 0, false});
+        here.nodes.push_back({static_cast<std::uint32_t>(i), 0, 0, 0});
         here.boxes.push_back(below.boxes[i]);
       }
       Node& node = here.nodes.back();
@@ -185,26 +219,26 @@ void CellTree::layOut(const VisibleEdgeIndex& index) {
     }
     places = std::move(blocks);
   }
-  for (Level& level : levels_) {
+  for (Level& level : data_.levels) {
     std::uint32_t arrays = 0;
     for (Node& node : level.nodes) {
       node.first_array = arrays;
-      arrays += static_cast<std::uint32_t>(node.has_open ? kArraysWithOpen : kArraysOfWalls);
+      arrays += static_cast<std::uint32_t>(node.has_open != 0 ? kArraysWithOpen : kArraysOfWalls);
     }
     level.codes.resize(static_cast<std::size_t>(arrays) * kStride + 1);  // beams read one ahead
   }
   std::uint32_t views = 0;
-  for (const Node& node : levels_[0].nodes) {
-    first_view_.push_back(views);
-    views += node.has_open ? 2 : 1;
+  for (const Node& node : data_.levels[0].nodes) {
+    data_.first_view.push_back(views);
+    views += node.has_open != 0 ? 2 : 1;
   }
-  views_.resize(static_cast<std::size_t>(views) * kStride + 1);
+  data_.views.resize(static_cast<std::size_t>(views) * kStride + 1);
 }
 
 void CellTree::storeBands(const BandArrays& arrays, std::size_t level, std::size_t node) {
-  Level& l = levels_[level];
+  Level& l = data_.levels[level];
   const Node& n = l.nodes[node];
-  const std::size_t count = n.has_open ? kArraysWithOpen : kArraysOfWalls;
+  const std::size_t count = n.has_open != 0 ? kArraysWithOpen : kArraysOfWalls;
   for (std::size_t which = 0; which < count; ++which) {
     copyAround(arrays.values[which].data(), &l.codes[(n.first_array + which) * kStride]);
   }
@@ -222,9 +256,9 @@ void CellTree::storeView(const PredictedRanges& ranges, std::size_t cell) {
     wall[b] = static_cast<std::uint16_t>((in_units(ranges.wall[b]) & ~kOpenBit) |
                                          (is_open ? kOpenBit : 0));
   }
-  std::uint16_t* to = &views_[first_view_[cell] * kStride];
+  std::uint16_t* to = &data_.views[data_.first_view[cell] * kStride];
   copyAround(wall.data(), to);
-  if (levels_[0].nodes[cell].has_open) copyAround(near.data(), to + kStride);
+  if (data_.levels[0].nodes[cell].has_open != 0) copyAround(near.data(), to + kStride);
 }
 
 void CellTree::fill(const RangePredictor& predictor, int threads) {
@@ -245,7 +279,7 @@ void CellTree::fill(const RangePredictor& predictor, int threads) {
         predictor.predict({p.x, p.y, 0.0}, pattern, ranges);
         storeView(ranges, node);
       } else {
-        const Node& n = levels_[level].nodes[node];
+        const Node& n = data_.levels[level].nodes[node];
         BandArrays child;
         for (std::uint32_t i = 0; i < n.child_count; ++i) {
           self(self, level - 1, n.first_child + i, i == 0 ? arrays : child);
@@ -260,22 +294,22 @@ void CellTree::fill(const RangePredictor& predictor, int threads) {
   };
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
-    const tbb::blocked_range<std::size_t> all(0, levels_[kLevels - 1].nodes.size(), 4);
+    const tbb::blocked_range<std::size_t> all(0, data_.levels[kLevels - 1].nodes.size(), 4);
     tbb::parallel_for(all, [&](const auto& range) { build(range.begin(), range.end()); });
   });
 }
 
 CellTree::Bands CellTree::middleView(std::size_t cell) const {
-  const std::uint16_t* wall = &views_[first_view_[cell] * kStride];
-  if (!levels_[0].nodes[cell].has_open) return {wall, wall, nullptr, nullptr};
+  const std::uint16_t* wall = &data_.views[data_.first_view[cell] * kStride];
+  if (data_.levels[0].nodes[cell].has_open == 0) return {wall, wall, nullptr, nullptr};
   return {wall + kStride, wall, wall + kStride, wall};
 }
 
 CellTree::Bands CellTree::bands(std::size_t level, std::size_t node) const {
-  const Level& l = levels_[level];
+  const Level& l = data_.levels[level];
   const Node& n = l.nodes[node];
   const std::uint16_t* first = &l.codes[n.first_array * kStride];
-  if (!n.has_open) return {first, first + kStride, nullptr, nullptr};
+  if (n.has_open == 0) return {first, first + kStride, nullptr, nullptr};
   return {first, first + kStride, first + 2 * kStride, first + 3 * kStride};
 }
 
@@ -286,10 +320,11 @@ TPoint2D CellTree::middle(std::size_t cell) const {
 }
 
 std::size_t CellTree::bytes() const {
-  std::size_t sum = vertices_.size() * sizeof(TPoint2D) + views_.size() * sizeof(std::uint16_t) +
-                    first_view_.size() * sizeof(std::uint32_t) +
-                    first_vertex_.size() * sizeof(std::uint32_t);
-  for (const Level& level : levels_) {
+  std::size_t sum = data_.vertices.size() * sizeof(TPoint2D) +
+                    data_.views.size() * sizeof(std::uint16_t) +
+                    data_.first_view.size() * sizeof(std::uint32_t) +
+                    data_.first_vertex.size() * sizeof(std::uint32_t);
+  for (const Level& level : data_.levels) {
     sum += level.nodes.size() * sizeof(Node) + level.boxes.size() * sizeof(BoundingBox) +
            level.codes.size() * sizeof(std::uint16_t);
   }

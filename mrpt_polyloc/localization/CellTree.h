@@ -46,7 +46,21 @@ class CellTree {
   struct Node {
     std::uint32_t first_child, child_count;  ///< in the level below; unused on level 0
     std::uint32_t first_array;               ///< of the level's arrays
-    bool has_open;                           ///< then four arrays, else two
+    std::uint32_t has_open;                  ///< 1: four arrays, with open edges; 0: two
+  };
+  struct Level {
+    std::vector<Node> nodes;
+    std::vector<BoundingBox> boxes;
+    std::vector<std::uint16_t> codes;  ///< the nodes' arrays, and one entry more
+  };
+  /// All that a tree is made of, to be stored.
+  struct Data {
+    double cell_size = 0.0;                   ///< [m]
+    std::vector<TPoint2D> vertices;           ///< of the cells' polygons
+    std::vector<std::uint32_t> first_vertex;  ///< of each cell, and the end
+    std::array<Level, kLevels> levels;
+    std::vector<std::uint32_t> first_view;  ///< array of each cell in `views`
+    std::vector<std::uint16_t> views;       ///< wall and near, or wall alone; and one entry more
   };
 
   /// The bands of a node [RangeUnits]. `wall_high` is even but for its lowest bit, which is set
@@ -62,18 +76,24 @@ class CellTree {
   CellTree(const Triangulation& triangulation, const RangePredictor& predictor,
            const CellTreeParams& params = {});
 
-  double cellSize() const { return cell_size_; }
-  const std::vector<Node>& nodes(std::size_t level) const { return levels_[level].nodes; }
+  /// \throws InvalidMapError unless all numbers in the data are in their ranges
+  explicit CellTree(Data data);
+
+  const Data& data() const { return data_; }
+  double cellSize() const { return data_.cell_size; }
+  const std::vector<Node>& nodes(std::size_t level) const { return data_.levels[level].nodes; }
   Bands bands(std::size_t level, std::size_t node) const;
 
   /// The box that holds a node: the smallest one around a cell, and around its cells [m].
   const BoundingBox& box(std::size_t level, std::size_t node) const {
-    return levels_[level].boxes[node];
+    return data_.levels[level].boxes[node];
   }
   /// The vertices of a cell, counterclockwise [m].
-  const TPoint2D* polygon(std::size_t cell) const { return &vertices_[first_vertex_[cell]]; }
+  const TPoint2D* polygon(std::size_t cell) const {
+    return &data_.vertices[data_.first_vertex[cell]];
+  }
   std::size_t polygonSize(std::size_t cell) const {
-    return first_vertex_[cell + 1] - first_vertex_[cell];
+    return data_.first_vertex[cell + 1] - data_.first_vertex[cell];
   }
   /// The mean of its vertices [m].
   TPoint2D middle(std::size_t cell) const;
@@ -83,24 +103,14 @@ class CellTree {
   std::size_t bytes() const;
 
  private:
-  struct Level {
-    std::vector<Node> nodes;
-    std::vector<BoundingBox> boxes;
-    std::vector<std::uint16_t> codes;
-  };
-  void takeCells(const Triangulation& triangulation, int threads);
-  void layOut(const VisibleEdgeIndex& index);
+  using Squares = std::vector<std::pair<std::int32_t, std::int32_t>>;  ///< (column, row)
+  Squares takeCells(const Triangulation& triangulation, int threads);
+  void layOut(const VisibleEdgeIndex& index, Squares squares);
   void fill(const RangePredictor& predictor, int threads);
   void storeBands(const struct BandArrays& arrays, std::size_t level, std::size_t node);
   void storeView(const PredictedRanges& ranges, std::size_t cell);
 
-  double cell_size_;
-  std::vector<TPoint2D> vertices_;
-  std::vector<std::uint32_t> first_vertex_;
-  std::vector<std::pair<std::int32_t, std::int32_t>> squares_;  ///< of the cells; while building
-  std::array<Level, kLevels> levels_;
-  std::vector<std::uint32_t> first_view_;  ///< of the cells' arrays in `views_`
-  std::vector<std::uint16_t> views_;       ///< near and wall, or wall alone
+  Data data_;
 };
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/geometry/angles.h>
+#include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/BandQuery.h>
 #include <mrpt_polyloc/localization/CellTree.h>
@@ -7,6 +8,7 @@
 #include <mrpt_polyloc/localization/ScanCost.h>
 #include <mrpt_polyloc/localization/SignaturePyramid.h>
 #include <mrpt_polyloc/localization/assessment.h>
+#include <mrpt_polyloc/localization/search_index_file.h>
 #include <mrpt_polyloc/localization/search_positions.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 
@@ -14,6 +16,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace mrpt_polyloc {
@@ -80,6 +83,14 @@ struct GlobalLocalizer::Impl {
     }
     build_seconds = watch.seconds();
   }
+
+  Impl(PolygonMap polygon_map, SearchIndex index, const GlobalLocalizerParams& parameters)
+      : params(parameters),
+        map(std::move(polygon_map)),
+        triangulation(map),
+        predictor(triangulation, std::move(index.edges)),
+        cells(std::in_place, std::move(index.cells)),
+        build_seconds(watch.seconds()) {}
 
   /// The poses to be refined, and what is known of the others.
   std::vector<TPose2D> search(const RangeScan& scan, const PosePrior& prior,
@@ -181,6 +192,17 @@ GlobalLocalizer::GlobalLocalizer(PolygonMap map, GlobalLocalizerParams params) {
   params.check();
   impl_ = std::make_unique<Impl>(std::move(map), params);
 }
+GlobalLocalizer::GlobalLocalizer(PolygonMap map, const std::string& index, const std::string& file,
+                                 GlobalLocalizerParams params) {
+  params.method = SearchMethod::certified;
+  params.check();
+  SearchIndex parsed = parseIndex(index, file, map.hash());
+  try {
+    impl_ = std::make_unique<Impl>(std::move(map), std::move(parsed), params);
+  } catch (const InvalidMapError& error) {
+    throw FormatError(file, "", error.what());
+  }
+}
 GlobalLocalizer::~GlobalLocalizer() = default;
 GlobalLocalizer::GlobalLocalizer(GlobalLocalizer&&) noexcept = default;
 
@@ -190,6 +212,10 @@ const PolygonMap& GlobalLocalizer::map() const {
 std::size_t GlobalLocalizer::indexBytes() const {
   return (impl_->cells ? impl_->cells->bytes() : impl_->pyramid->bytes()) +
          impl_->predictor.index().bytes();
+}
+std::string GlobalLocalizer::serializedIndex() const {
+  if (!impl_->cells) throw std::logic_error("only the certified method's index can be kept");
+  return serializeIndex(impl_->predictor.index().lists(), impl_->cells->data(), impl_->map.hash());
 }
 double GlobalLocalizer::indexBuildSeconds() const {
   return impl_->build_seconds;

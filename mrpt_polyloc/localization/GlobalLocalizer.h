@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 
 namespace mrpt_polyloc {
 
@@ -56,6 +57,11 @@ class GlobalLocalizer {
  public:
   /// \throws InvalidParamsError
   explicit GlobalLocalizer(PolygonMap map, GlobalLocalizerParams params = {});
+  /// With an index made before by the certified method, `params.cell_size` then being the index's.
+  /// \param file its name, for messages
+  /// \throws FormatError if the content is not the index of this map, see parseIndex()
+  GlobalLocalizer(PolygonMap map, const std::string& index, const std::string& file,
+                  GlobalLocalizerParams params = {});
   ~GlobalLocalizer();
   GlobalLocalizer(GlobalLocalizer&&) noexcept;
 
@@ -65,7 +71,9 @@ class GlobalLocalizer {
   LocalizationResult localize(const RangeScan& scan, const PosePrior& prior = {}) const;
 
   const PolygonMap& map() const;
-  std::size_t indexBytes() const;    ///< memory of the search index
+  std::size_t indexBytes() const;  ///< memory of the search index
+  /// The index of the certified method, to be kept in a file. \throws std::logic_error for others
+  std::string serializedIndex() const;
   double indexBuildSeconds() const;  ///< wall time that building it took
 
  private:

@@ -31,7 +31,7 @@ struct PyramidCandidate {
 
 struct PyramidSearchResult {
   std::vector<PyramidCandidate> candidates;  ///< best first; one per cell of 0.3 m and 5.6 degrees
-  std::size_t evaluated = 0;              ///< blocks and headings whose bound was computed
+  std::size_t evaluated = 0;                 ///< blocks and headings whose bound was computed
 };
 
 /// Best-first branch and bound over (block, window of headings): the bound of a node is at most the

@@ -33,6 +33,7 @@ class BoundaryChains {
   /// Coordinates of the vertices in units of unit().
   const std::int32_t* x() const { return x_.data(); }
   const std::int32_t* y() const { return y_.data(); }
+  std::size_t vertexCount() const { return is_edge_.size(); }
   double unit() const { return unit_; }  ///< [m], a power of two
   /// A coordinate of a point in the triangulated box, in the same units.
   std::int32_t fixedX(double x) const { return fixed(x - origin_.x); }

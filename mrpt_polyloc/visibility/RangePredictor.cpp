@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace mrpt_polyloc {
 namespace {
@@ -74,6 +75,9 @@ struct RangePredictor::Workspace {
 
 RangePredictor::RangePredictor(const Triangulation& triangulation, double cell_size, int threads)
     : box_(triangulation.box()), index_(triangulation, cell_size, threads) {}
+
+RangePredictor::RangePredictor(const Triangulation& triangulation, VisibleEdgeIndex::Lists lists)
+    : box_(triangulation.box()), index_(triangulation, std::move(lists)) {}
 
 /// Raises `wall`, inverse ranges or hits, to what is seen from a pose (nothing outside the
 /// triangulated box), and writes the ranges to the first open edges.

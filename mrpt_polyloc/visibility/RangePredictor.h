@@ -46,6 +46,9 @@ class RangePredictor {
   explicit RangePredictor(const Triangulation& triangulation, double cell_size = kCellSize,
                           int threads = 0);
 
+  /// With lists found before. \throws InvalidMapError unless they may be those of the map
+  RangePredictor(const Triangulation& triangulation, VisibleEdgeIndex::Lists lists);
+
   /// The ranges from one pose of the beam frame (see RangeScan) in the map. All infinite outside
   /// the triangulated box, and for a pose that is not finite.
   void predict(const mrpt::math::TPose2D& pose_map_beams, const BeamPattern& beams,

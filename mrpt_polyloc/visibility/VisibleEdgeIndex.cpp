@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace mrpt_polyloc {
 namespace {
@@ -36,21 +37,8 @@ VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, double ce
 
 VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, const Triangulation& walls,
                                    double cell_size, int threads)
-    : chains_(triangulation, walls), cell_size_(cell_size) {
-  if (!(cell_size > 0.0)) {
-    throw InvalidParamsError("cell_size: " + std::to_string(cell_size) + " is not positive");
-  }
-  const BoundingBox& box = triangulation.box();
-  corner_ = box.min;
-  const double columns = std::floor((box.max.x - box.min.x) / cell_size_) + 1;
-  const double rows = std::floor((box.max.y - box.min.y) / cell_size_) + 1;
-  constexpr double kMostCells = 1 << 30;
-  if (columns * rows > kMostCells) {
-    throw InvalidParamsError("cell_size: " + std::to_string(cell_size) +
-                             " gives too many cells for a map of this size");
-  }
-  columns_ = static_cast<int>(columns);
-  rows_ = static_cast<int>(rows);
+    : chains_(triangulation, walls) {
+  layGrid(triangulation.box(), cell_size);
   const std::size_t lists = numberLists(triangulation);
   const auto seen_walls = findRuns(walls, lists, threads, [this](std::size_t face, std::size_t i) {
     return chains_.wallNumber(face, i);
@@ -58,14 +46,51 @@ VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, const Tri
   const auto seen_open =
       findRuns(triangulation, lists, threads,
                [this](std::size_t face, std::size_t i) { return chains_.openNumber(face, i); });
-  list_begin_.push_back(0);
+  lists_.begin.push_back(0);
   for (std::size_t i = 0; i < lists; ++i) {
     for (const auto* runs : {&seen_walls[i], &seen_open[i]}) {
-      runs_.insert(runs_.end(), runs->begin(), runs->end());
-      list_begin_.push_back(static_cast<std::uint32_t>(runs_.size()));
+      lists_.runs.insert(lists_.runs.end(), runs->begin(), runs->end());
+      lists_.begin.push_back(static_cast<std::uint32_t>(lists_.runs.size()));
     }
   }
-  runs_.shrink_to_fit();
+  lists_.runs.shrink_to_fit();
+}
+
+VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, Lists lists)
+    : chains_(triangulation, triangulation.wallsAlone()) {
+  layGrid(triangulation.box(), lists.cell_size);
+  lists_ = std::move(lists);
+  const auto require = [](bool is_met) {
+    if (!is_met) throw InvalidMapError("index of visible edges: not of this map");
+  };
+  require(lists_.of_cell.size() ==
+          static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  require(lists_.begin.size() % 2 == 1 && lists_.begin.front() == 0 &&
+          lists_.begin.back() == lists_.runs.size() &&
+          std::is_sorted(lists_.begin.begin(), lists_.begin.end()));
+  const auto count = static_cast<std::int32_t>(lists_.begin.size() / 2);
+  for (const std::int32_t list : lists_.of_cell) require(list >= -1 && list < count);
+  for (const Run& run : lists_.runs) {
+    require(std::size_t{run.first} + run.edges < chains_.vertexCount());
+  }
+}
+
+/// \throws InvalidParamsError
+void VisibleEdgeIndex::layGrid(const BoundingBox& box, double cell_size) {
+  if (!(cell_size > 0.0)) {
+    throw InvalidParamsError("cell_size: " + std::to_string(cell_size) + " is not positive");
+  }
+  corner_ = box.min;
+  lists_.cell_size = cell_size;
+  const double columns = std::floor((box.max.x - box.min.x) / cell_size) + 1;
+  const double rows = std::floor((box.max.y - box.min.y) / cell_size) + 1;
+  constexpr double kMostCells = 1 << 30;
+  if (columns * rows > kMostCells) {
+    throw InvalidParamsError("cell_size: " + std::to_string(cell_size) +
+                             " gives too many cells for a map of this size");
+  }
+  columns_ = static_cast<int>(columns);
+  rows_ = static_cast<int>(rows);
 }
 
 template <class Visitor>
@@ -79,10 +104,10 @@ void VisibleEdgeIndex::forEachOverlap(const Triangulation& t, Visitor&& visit) c
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
     const auto column = [this](double x) {
-      return std::clamp(static_cast<int>((x - corner_.x) / cell_size_), 0, columns_ - 1);
+      return std::clamp(static_cast<int>((x - corner_.x) / lists_.cell_size), 0, columns_ - 1);
     };
     const auto row = [this](double y) {
-      return std::clamp(static_cast<int>((y - corner_.y) / cell_size_), 0, rows_ - 1);
+      return std::clamp(static_cast<int>((y - corner_.y) / lists_.cell_size), 0, rows_ - 1);
     };
     for (int r = row(low.y); r <= row(high.y); ++r) {
       for (int c = column(low.x); c <= column(high.x); ++c) visit(f, c, r);
@@ -92,8 +117,9 @@ void VisibleEdgeIndex::forEachOverlap(const Triangulation& t, Visitor&& visit) c
 
 Square VisibleEdgeIndex::square(int column, int row) const {
   // A little larger than the cell: rounding may put a point of the border on the other side.
-  return {{corner_.x + (column + 0.5) * cell_size_, corner_.y + (row + 0.5) * cell_size_},
-          (0.5 + 1e-6) * cell_size_};
+  return {
+      {corner_.x + (column + 0.5) * lists_.cell_size, corner_.y + (row + 0.5) * lists_.cell_size},
+      (0.5 + 1e-6) * lists_.cell_size};
 }
 
 std::size_t VisibleEdgeIndex::numberLists(const Triangulation& t) {
@@ -107,7 +133,7 @@ std::size_t VisibleEdgeIndex::numberLists(const Triangulation& t) {
     char& touches = touches_free[number(column, row)];
     if (!touches && t.faces()[f].is_free) touches = overlap(t, t.faces()[f], square(column, row));
   });
-  list_of_cell_.assign(touches_free.size(), -1);
+  lists_.of_cell.assign(touches_free.size(), -1);
   std::int32_t lists = 0;
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
@@ -117,7 +143,7 @@ std::size_t VisibleEdgeIndex::numberLists(const Triangulation& t) {
           near_free |= touches_free[number(c, r)] != 0;
         }
       }
-      if (near_free) list_of_cell_[number(column, row)] = lists++;
+      if (near_free) lists_.of_cell[number(column, row)] = lists++;
     }
   }
   return static_cast<std::size_t>(lists);
@@ -130,8 +156,8 @@ std::vector<std::vector<VisibleEdgeIndex::Run>> VisibleEdgeIndex::findRuns(
   std::vector<std::vector<std::int32_t>> faces(lists);
   forEachOverlap(t, [&](std::size_t f, int column, int row) {
     const std::int32_t list =
-        list_of_cell_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                      static_cast<std::size_t>(column)];
+        lists_.of_cell[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                       static_cast<std::size_t>(column)];
     if (list < 0) return;
     const auto i = static_cast<std::size_t>(list);
     squares[i] = square(column, row);
@@ -190,22 +216,22 @@ std::vector<VisibleEdgeIndex::Run> VisibleEdgeIndex::runsOf(
 }
 
 std::int64_t VisibleEdgeIndex::cellNumber(const TPoint2D& point) const {
-  const double column = std::floor((point.x - corner_.x) / cell_size_);
-  const double row = std::floor((point.y - corner_.y) / cell_size_);
+  const double column = std::floor((point.x - corner_.x) / lists_.cell_size);
+  const double row = std::floor((point.y - corner_.y) / lists_.cell_size);
   if (!(column >= 0 && row >= 0 && column < columns_ && row < rows_)) return -1;
-  return list_of_cell_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                       static_cast<std::size_t>(column)];
+  return lists_.of_cell[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                        static_cast<std::size_t>(column)];
 }
 
 VisibleEdgeIndex::Cell VisibleEdgeIndex::cell(std::int64_t number) const {
-  const std::uint32_t* begin = &list_begin_[2 * static_cast<std::size_t>(number)];
-  const Run* runs = runs_.data();
+  const std::uint32_t* begin = &lists_.begin[2 * static_cast<std::size_t>(number)];
+  const Run* runs = lists_.runs.data();
   return {runs + begin[0], begin[1] - begin[0], runs + begin[1], begin[2] - begin[1]};
 }
 
 std::size_t VisibleEdgeIndex::bytes() const {
-  return chains_.bytes() + list_of_cell_.size() * sizeof(std::int32_t) +
-         list_begin_.size() * sizeof(std::uint32_t) + runs_.size() * sizeof(Run);
+  return chains_.bytes() + lists_.of_cell.size() * sizeof(std::int32_t) +
+         lists_.begin.size() * sizeof(std::uint32_t) + lists_.runs.size() * sizeof(Run);
 }
 
 }  // namespace mrpt_polyloc

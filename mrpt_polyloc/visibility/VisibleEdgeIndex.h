@@ -29,6 +29,17 @@ class VisibleEdgeIndex {
   /// \throws InvalidParamsError for a cell size that is not positive, or gives more than 2^30 cells
   VisibleEdgeIndex(const Triangulation& triangulation, double cell_size, int threads = 0);
 
+  /// What takes long to find, to be stored.
+  struct Lists {
+    double cell_size = 0.0;             ///< [m]
+    std::vector<std::int32_t> of_cell;  ///< number of a cell's lists, -1 if not indexed
+    std::vector<std::uint32_t> begin;   ///< into `runs`: walls at 2 i, open edges at 2 i + 1
+    std::vector<Run> runs;
+  };
+  /// \throws InvalidMapError unless the lists may be those of the triangulation's map
+  VisibleEdgeIndex(const Triangulation& triangulation, Lists lists);
+  const Lists& lists() const { return lists_; }
+
   /// Whether a point lies in a cell that is indexed: all cells that touch free space are, and those
   /// next to them.
   bool covers(const TPoint2D& point) const { return cellNumber(point) >= 0; }
@@ -54,14 +65,12 @@ class VisibleEdgeIndex {
   std::vector<Run> runsOf(std::vector<std::uint32_t>& numbers) const;
   VisibleEdgeIndex(const Triangulation& triangulation, const Triangulation& walls, double cell_size,
                    int threads);
+  void layGrid(const BoundingBox& box, double cell_size);
 
   BoundaryChains chains_;
   TPoint2D corner_;  ///< lower left, of cell (0, 0)
-  double cell_size_;
   int columns_, rows_;
-  std::vector<std::int32_t> list_of_cell_;  ///< number of the cell's lists, -1 if not indexed
-  std::vector<std::uint32_t> list_begin_;   ///< into runs_: walls at 2 i, open edges at 2 i + 1
-  std::vector<Run> runs_;
+  Lists lists_;
 };
 
 }  // namespace mrpt_polyloc

@@ -106,11 +106,12 @@ INSTANTIATE_TEST_SUITE_P(
     Localize, UsageErrors,
     testing::Values(
         BadUsage{"no_scans", "polyloc-localize", {"--map", "a.wkt"}, "--scans is required"},
-        localize("certified", {"--method", "certified"}, "--method certified is not built yet"),
         localize("cells", {"--method", "cells"}, "--method cells is not built yet"),
         localize("unknown_method", {"--method", "best"}, "unknown method 'best'"),
-        localize("index", {"--index", "a.idx"}, "--index is not built yet"),
-        localize("time_budget", {"--time-budget", "50"}, "--time-budget needs --method certified"),
+        localize("index", {"--method", "exhaustive", "--index", "a.idx"},
+                 "--index needs --method certified"),
+        localize("time_budget", {"--method", "exact", "--time-budget", "50"},
+                 "--time-budget needs --method certified"),
         localize("compass_nan", {"--compass", "nan"}, "'nan' is not a finite number"),
         localize("compass_word", {"--compass", "north"}, "'north'"),
         localize("tolerance_alone", {"--compass-tolerance", "5"}, "requires --compass"),
@@ -134,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Eval, UsageErrors,
-    testing::Values(evaluate("eval_method", {"--method", "certified"}, "not built yet"),
+    testing::Values(evaluate("eval_method", {"--method", "cells"}, "not built yet"),
                     evaluate("eval_tolerance_one", {"--tolerance", "0.3"}, "'0.3' is not M,DEG"),
                     evaluate("eval_tolerance_zero", {"--tolerance", "0,5"}, "'0,5' is not M,DEG"),
                     evaluate("eval_tolerance_turn", {"--tolerance", "1,181"}, "'1,181' is not"),

@@ -1,0 +1,155 @@
+#include "simulated_scans.h"
+#include "tests/support/random_maps.h"
+#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/localization/CellTree.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <string>
+
+namespace mrpt_polyloc::test {
+namespace {
+
+struct TreeOfMap {
+  static constexpr double kSize = 0.25;
+  explicit TreeOfMap(PolygonMap polygon_map, int threads = 1)
+      : map(std::move(polygon_map)),
+        triangulation(map),
+        predictor(triangulation, 2 * kSize, threads),
+        tree(triangulation, predictor, {kSize, threads}),
+        rays(map) {}
+
+  PolygonMap map;
+  Triangulation triangulation;
+  RangePredictor predictor;
+  CellTree tree;
+  BruteForceRays rays;
+};
+
+/// The cells (indices of level 0) below a node: one run.
+std::pair<std::size_t, std::size_t> cellsOf(const CellTree& tree, std::size_t level,
+                                            std::size_t node) {
+  std::size_t first = node, last = node + 1;
+  for (; level > 0; --level) {
+    const CellTree::Node& end = tree.nodes(level)[last - 1];
+    first = tree.nodes(level)[first].first_child;
+    last = end.first_child + end.child_count;
+  }
+  return {first, last};
+}
+
+double unitsOf(double range) {
+  return std::min(range * RangeUnits::kPerMeter, 1e6);
+}
+
+TEST(CellTree, EveryNodeHoldsWhatIsSeenFromItsCellsOverItsWindow) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const TreeOfMap built(floorPlan(randomParams(random), seed));
+    const CellTree& tree = built.tree;
+    for (std::size_t level = 0; level < CellTree::kLevels; ++level) {
+      for (int i = 0; i < 400; ++i) {
+        const std::size_t node = random() % tree.nodes(level).size();
+        const auto [first, last] = cellsOf(tree, level, node);
+        const std::size_t cell = first + random() % (last - first);
+        TPoint2D p = tree.middle(cell);
+        p += (tree.polygon(cell)[random() % tree.polygonSize(cell)] - p) * (0.999 * unit(random));
+        const std::size_t bin = random() % kBandBins;
+        const double offset = unit(random) * static_cast<double>(CellTree::kWindow[level]);
+        const RayHit hit = built.rays.cast(p, (static_cast<double>(bin) + offset) * kBandBinWidth);
+        const CellTree::Bands bands = tree.bands(level, node);
+        const double near = std::min(hit.wall, hit.open);
+        EXPECT_LE(bands.near_low[bin], unitsOf(near) + 0.2);
+        EXPECT_GE(bands.wall_high[bin] + 0.2, std::min(unitsOf(hit.wall), 65534.0));
+        if (std::isfinite(hit.open)) {
+          EXPECT_EQ(bands.wall_high[bin] & 1, 1);
+        }
+        if (bands.near_high == nullptr) continue;
+        EXPECT_GE(bands.near_high[bin] + 0.2, std::min(unitsOf(near), 65535.0));
+        EXPECT_LE(bands.wall_low[bin], unitsOf(hit.wall) + 0.2);
+      }
+    }
+  }
+}
+
+TEST(CellTree, EveryLevelHoldsEveryCellOnce) {
+  std::mt19937 random(12);
+  const TreeOfMap built(floorPlan(randomParams(random), 2));
+  const CellTree& tree = built.tree;
+  double area = 0.0;
+  for (std::size_t cell = 0; cell < tree.nodes(0).size(); ++cell) {
+    area += signedArea({tree.polygon(cell), tree.polygon(cell) + tree.polygonSize(cell)});
+  }
+  EXPECT_NEAR(area, built.map.area(), 1e-5 * built.map.area());
+  for (std::size_t level = 0; level < CellTree::kLevels; ++level) {
+    std::size_t next = 0;
+    const double width = std::ldexp(TreeOfMap::kSize, static_cast<int>(level));
+    for (std::size_t node = 0; node < tree.nodes(level).size(); ++node) {
+      const auto [first, last] = cellsOf(tree, level, node);
+      EXPECT_EQ(first, next);
+      next = last;
+      const BoundingBox& box = tree.box(level, node);
+      EXPECT_LE(box.max.x - box.min.x, width + 1e-9);
+      EXPECT_LE(box.max.y - box.min.y, width + 1e-9);
+      for (std::size_t cell = first; cell < last; ++cell) {
+        for (std::size_t k = 0; k < tree.polygonSize(cell); ++k) {
+          const TPoint2D& p = tree.polygon(cell)[k];
+          EXPECT_TRUE(p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y);
+        }
+      }
+    }
+    EXPECT_EQ(next, tree.nodes(0).size());
+  }
+}
+
+TEST(CellTree, ViewsFromTheMiddleArePredictedRanges) {
+  std::mt19937 random(13);
+  const TreeOfMap built(floorPlan(randomParams(random), 4));
+  std::size_t apart = 0, compared = 0;
+  for (std::size_t cell = 0; cell < built.tree.nodes(0).size(); cell += 3) {
+    const CellTree::Bands view = built.tree.middleView(cell);
+    for (std::size_t bin = 0; bin < kBandBins; bin += 5) {
+      const RayHit hit =
+          built.rays.cast(built.tree.middle(cell), static_cast<double>(bin) * kBandBinWidth);
+      const double near = std::min(unitsOf(std::min(hit.wall, hit.open)), 65534.0);
+      ++compared;
+      apart += std::abs(view.near_low[bin] - near) > 2.5;
+    }
+  }
+  EXPECT_LT(static_cast<double>(apart), 5e-3 * static_cast<double>(compared));  // grazing rays
+}
+
+TEST(CellTree, DoesNotDependOnTheThreads) {
+  std::mt19937 random(14);
+  const PolygonMap map = floorPlan(randomParams(random), 6);
+  const TreeOfMap one(map, 1), many(map, 4);
+  for (std::size_t level = 0; level < CellTree::kLevels; ++level) {
+    EXPECT_EQ(one.tree.data().levels[level].codes, many.tree.data().levels[level].codes);
+  }
+  EXPECT_EQ(one.tree.data().views, many.tree.data().views);
+}
+
+TEST(CellTree, RefusesDataThatDoNotFitTogether) {
+  const TreeOfMap built(squareMap(2.0));
+  const auto refuses = [&](const auto& spoil) {
+    CellTree::Data data = built.tree.data();
+    spoil(data);
+    EXPECT_THROW(CellTree{std::move(data)}, InvalidMapError);
+  };
+  EXPECT_NO_THROW(CellTree{built.tree.data()});
+  refuses([](CellTree::Data& d) { d.cell_size = 0.0; });
+  refuses([](CellTree::Data& d) { d.first_vertex.back() += 1; });
+  refuses([](CellTree::Data& d) { d.first_view.back() += 1; });
+  refuses([](CellTree::Data& d) { d.levels[0].codes.pop_back(); });
+  refuses([](CellTree::Data& d) { d.levels[1].boxes.pop_back(); });
+  refuses([](CellTree::Data& d) { d.levels[2].nodes.back().child_count += 100; });
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc::test
