@@ -70,6 +70,48 @@ class PolylocLocalize : public ProgramTest {
   }
 };
 
+TEST_F(PolylocLocalize, KeepsItsIndexInAFile) {
+  simulate("sim");
+  const Outcome plain = localize({});
+  const Outcome writes = localize({"--index", path("room.index")});
+  ASSERT_EQ(writes.code, 0) << writes.err;
+  ASSERT_TRUE(std::filesystem::exists(path("room.index")));
+  const Outcome reads = localize({"--index", path("room.index")});
+  ASSERT_EQ(reads.code, 0) << reads.err;
+  EXPECT_EQ(withoutTimes(writes.out), withoutTimes(plain.out));
+  EXPECT_EQ(withoutTimes(reads.out), withoutTimes(plain.out));
+}
+
+TEST_F(PolylocLocalize, RefusesAFileThatIsNotItsIndex) {
+  simulate("sim");
+  write("bad.index", "no index at all");
+  const Outcome outcome = localize({"--index", path("bad.index")});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("bad.index"), HasSubstr("not a search index")));
+  write("empty.index", "");
+  EXPECT_EQ(localize({"--index", path("empty.index")}).code, 1);
+  EXPECT_EQ(localize({"--index", "/no/such/folder/room.index"}).code, 1);
+}
+
+TEST_F(PolylocLocalize, AnswersWithinATimeBudget) {
+  simulate("sim");
+  const Outcome outcome = localize({"--time-budget", "0.001"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(linesOf(outcome.out).front(), kHeader);
+}
+
+TEST_F(PolylocLocalize, MethodsAgreeOnTheFirstAnswer) {
+  simulate("sim");
+  const auto certified = firstAnswers(localize({}).out);
+  const auto exhaustive = firstAnswers(localize({"--method", "exhaustive"}).out);
+  ASSERT_EQ(certified.size(), exhaustive.size());
+  for (const auto& [row, fields] : certified) {
+    for (const std::size_t column : {4U, 5U}) {
+      EXPECT_NEAR(std::stod(fields[column]), std::stod(exhaustive.at(row)[column]), 0.02) << row;
+    }
+  }
+}
+
 TEST_F(PolylocLocalize, FindsEveryScanOfAnAsymmetricRoom) {
   simulate("sim");
   const Outcome outcome = localize({});

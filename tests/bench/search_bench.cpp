@@ -1,5 +1,6 @@
-// The search on generated floor plans, as a function of their area: seconds and MB of the index, ms
-// per scan of 360 beams, clean and with 30 % of the beams ending early.
+// The search on generated floor plans with furniture, as a function of their area: seconds and MB
+// of the index, median and 90th percentile of ms per scan of 360 beams, clean, cluttered, with a
+// compass.
 #include "tests/support/BruteForceRays.h"
 #include "tests/support/random_maps.h"
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
@@ -31,16 +32,35 @@ PolygonMap planOfArea(double area) {
   return test::floorPlan(params, 1);
 }
 
-RangeScan scanAt(const test::BruteForceRays& rays, const TPose2D& pose, double short_share,
+/// What the scans are like.
+struct Condition {
+  const char* name;
+  double short_share = 0.0;  ///< of the beams, which end early
+  int occluders = 0;         ///< contiguous, 8 to 19 degrees each
+  bool has_compass = false;  ///< of 10 degrees
+};
+
+RangeScan scanAt(const test::BruteForceRays& rays, const TPose2D& pose, const Condition& condition,
                  std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::normal_distribution<double> noise(0.0, 0.01);
+  constexpr int kBeams = 360;
+  std::vector<double> nearer(kBeams, 1.0);  // share of the range that is seen
+  for (int i = 0; i < condition.occluders; ++i) {
+    const int first = static_cast<int>(kBeams * unit(random));
+    const int width = 8 + static_cast<int>(12 * unit(random));
+    const double share = unit(random);
+    for (int k = first; k < first + width; ++k) {
+      nearer[static_cast<std::size_t>(k % kBeams)] = share;
+    }
+  }
   std::vector<Beam> beams;
-  for (int i = 0; i < 360; ++i) {
+  for (int i = 0; i < kBeams; ++i) {
     const double bearing = (i - 180) * kPi / 180;
     double range = rays.cast({pose.x, pose.y}, pose.phi + bearing).wall + noise(random);
-    if (unit(random) < short_share) range *= unit(random);
-    beams.push_back({bearing, range, BeamKind::hit});
+    if (unit(random) < condition.short_share) range *= unit(random);
+    range *= nearer[static_cast<std::size_t>(i)];
+    beams.push_back({bearing, std::max(range, 0.02), BeamKind::hit});
   }
   return RangeScan(std::move(beams));
 }
@@ -52,51 +72,71 @@ bool isRight(const LocalizationResult& result, const TPose2D& truth) {
          std::abs(std::remainder(first.phi - truth.phi, 2 * kPi)) < 0.05;
 }
 
-void searchOnPlan(benchmark::State& state, double area, double short_share) {
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+void searchOnPlan(benchmark::State& state, double area, const Condition& condition,
+                  SearchMethod method) {
   const PolygonMap map = planOfArea(area);
-  const GlobalLocalizer localizer(map);
+  GlobalLocalizerParams params;
+  params.method = method;
+  const GlobalLocalizer localizer(map, params);
   const test::BruteForceRays rays(map);
   std::mt19937 random(1);
-  std::vector<TPose2D> poses;
-  std::vector<RangeScan> scans;
-  for (const TPoint2D& p : test::randomFreePoints(map, 20, random)) {
-    poses.emplace_back(p.x, p.y, std::uniform_real_distribution<double>(-kPi, kPi)(random));
-    scans.push_back(scanAt(rays, poses.back(), short_share, random));
-  }
-  std::size_t next = 0, right = 0, count = 0, positions = 0;
-  double search = 0.0, refinement = 0.0, evaluated = 0.0;
+  std::size_t right = 0;
+  double evaluated = 0.0;
+  std::vector<double> ms;
+  const std::vector<TPoint2D> places =
+      test::randomFreePoints(map, static_cast<std::size_t>(state.max_iterations), random);
   for (auto _ : state) {
-    const LocalizationResult result = localizer.localize(scans[next]);
-    right += isRight(result, poses[next]);
-    next = (next + 1) % scans.size();
-    ++count;
-    positions = result.statistics.positions;
-    search += result.statistics.search_ms;
-    refinement += result.statistics.refinement_ms;
+    state.PauseTiming();
+    const TPoint2D& p = places[ms.size() % places.size()];
+    const TPose2D pose{p.x, p.y, std::uniform_real_distribution<double>(-kPi, kPi)(random)};
+    const RangeScan scan = scanAt(rays, pose, condition, random);
+    PosePrior prior;
+    if (condition.has_compass) {
+      prior.compass = PosePrior::Compass{pose.phi + 0.1, 10.0 * kPi / 180};
+    }
+    state.ResumeTiming();
+    const LocalizationResult result = localizer.localize(scan, prior);
+    right += isRight(result, pose);
+    ms.push_back(result.statistics.search_ms + result.statistics.refinement_ms);
     evaluated += static_cast<double>(result.statistics.evaluated);
   }
-  const auto n = static_cast<double>(count);
+  const auto n = static_cast<double>(ms.size());
   state.counters["area"] = map.area();
-  state.counters["positions"] = static_cast<double>(positions);
   state.counters["index_s"] = localizer.indexBuildSeconds();
   state.counters["index_mb"] = static_cast<double>(localizer.indexBytes()) / 1e6;
-  state.counters["search_ms"] = search / n;
-  state.counters["refine_ms"] = refinement / n;
+  state.counters["ms_median"] = quantile(ms, 0.5);
+  state.counters["ms_p90"] = quantile(ms, 0.9);
   state.counters["evaluated"] = evaluated / n;
   state.counters["right"] = static_cast<double>(right) / n;
 }
 
+void add(int area, const Condition& condition, SearchMethod method) {
+  const std::string name = std::string("search/") + std::to_string(area) + "m2/" + condition.name +
+                           (method == SearchMethod::certified ? "" : "/exhaustive");
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [area, condition, method](benchmark::State& state) {
+                                 searchOnPlan(state, area, condition, method);
+                               })
+      ->Unit(benchmark::kMillisecond)
+      ->Iterations(40);
+}
+
 const int registered = [] {
+  const std::vector<Condition> conditions = {{"clean"},
+                                             {"10%short", 0.1},
+                                             {"30%short", 0.3},
+                                             {"10occluders", 0.0, 10},
+                                             {"10%short+compass", 0.1, 0, true}};
+  for (const int area : {100, 400, 1600, 6400, 10000}) {
+    for (const Condition& condition : conditions) add(area, condition, SearchMethod::certified);
+  }
   for (const int area : {100, 400, 1600}) {
-    for (const int percent : {0, 30}) {
-      const std::string name =
-          "search/" + std::to_string(area) + "m2/" + std::to_string(percent) + "%short";
-      benchmark::RegisterBenchmark(
-          name.c_str(),
-          [area, percent](benchmark::State& state) { searchOnPlan(state, area, percent / 100.0); })
-          ->Unit(benchmark::kMillisecond)
-          ->Iterations(40);
-    }
+    for (const Condition& condition : conditions) add(area, condition, SearchMethod::exhaustive);
   }
   return 0;
 }();
