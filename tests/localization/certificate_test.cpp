@@ -202,6 +202,10 @@ TEST(Certificate, CoversThePoseOfTheScanAndLeavesOutMostOfTheMap) {
     // A scan without noise costs nothing where it was taken.
     EXPECT_TRUE(std::any_of(result.regions.begin(), result.regions.end(),
                             [&](const PoseRegion& region) { return holds(region, truth); }));
+    ASSERT_FALSE(result.hypotheses.empty());
+    const TPose2D& first = result.hypotheses.front().pose_map_robot;
+    EXPECT_LT(distanceBetween(first, truth), 1e-3);
+    EXPECT_LT(turnBetween(first, truth), 0.01 * kPi / 180);
     double area = 0.0;
     for (const PoseRegion& region : result.regions) area += signedArea(region.cell);
     EXPECT_LT(area / static_cast<double>(kBandBins), 0.02 * map.area());
