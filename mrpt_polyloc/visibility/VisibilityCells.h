@@ -89,6 +89,17 @@ class VisibilityCells {
   /// rounded polygons: within some 1e-12 of an edge the neighbour may be given.
   std::int32_t locate(const TPoint2D& point) const;
 
+  /// How far a point lies beyond the line of an edge of a cell, at most over its edges [m]; 0
+  /// inside and on the border.
+  double distanceOutside(std::size_t cell, const TPoint2D& point) const;
+
+  /// Points from which the view may be that of none of the cells around, once each, as vertices are
+  /// hidden that are seen from one cell around or another: inner points where three critical lines
+  /// or more meet; of edges across which vertices appear and others disappear the middle, and the
+  /// ends that are inner points; and, for lines that meet or coincide but for rounding, the
+  /// representatives of cells narrower than `width` [m].
+  std::vector<TPoint2D> tiedPoints(double width) const;
+
   /// Memory of what is kept [bytes], without the triangulation.
   std::size_t memory() const;
 
