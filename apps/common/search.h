@@ -36,8 +36,9 @@ struct ScanLocalizer {
   std::size_t index_bytes = 0;  ///< memory of what was prepared
 };
 
-/// Prepares the search of `search.method` in a map.
-ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search);
+/// Prepares the search of `search.method` in a map, for so many scans: for `exact` with the map's
+/// skeletons where that pays.
+ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::size_t scans);
 
 /// What the method searches for: the scans of a log or, for `exact`, the polygons of a WKT file
 /// (see loadViewPolygons()).

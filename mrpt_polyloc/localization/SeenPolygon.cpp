@@ -20,6 +20,19 @@ std::string toText(const TPoint2D& p) {
   return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
 }
 
+/// Whether the point seen in direction u in one piece lies within the limit of the other.
+bool agreeAlong(const TPoint2D& u, const SeenPolygon::Wall& a, const SeenPolygon::Wall& b,
+                double limit) {
+  if (a.is_arc && b.is_arc) return std::abs(a.distance - b.distance) <= limit;
+  if (b.is_arc) return agreeAlong(u, b, a, limit);
+  const double cos_b = dot(b.normal, u);
+  if (cos_b <= 0.0) return false;
+  if (a.is_arc) return a.distance * cos_b - b.distance <= limit;
+  const double cos_a = dot(a.normal, u);
+  if (cos_a <= 0.0) return false;
+  return std::abs(a.distance * cos_b - b.distance * cos_a) <= limit * std::min(cos_a, cos_b);
+}
+
 }  // namespace
 
 bool SeenPolygon::isWithin(double length, double limit) {
@@ -76,7 +89,7 @@ SeenPolygon::SeenPolygon(const std::vector<TPoint2D>& vertices, double tolerance
     }
     if (isWithin(std::abs(area) / far, 2.0 * tolerance)) continue;  // a window
     const TPoint2D normal((b.y - a.y) / length, (a.x - b.x) / length);
-    walls_.push_back({std::atan2(a.y, a.x), a, b, normal, area / length});
+    walls_.push_back({std::atan2(a.y, a.x), a, b, normal, area / length, false});
   }
   if (std::lround(turned / kTwoPi) != 1) {
     throw InvalidParamsError("the polygon winds " + std::to_string(std::lround(turned / kTwoPi)) +
@@ -109,15 +122,20 @@ VisibilitySkeleton SeenPolygon::skeleton() const {
 }
 
 bool agree(const SeenPolygon& a, const SeenPolygon& b, double limit) {
+  return agree(a.walls(), b.walls(), limit);
+}
+
+bool agree(const std::vector<SeenPolygon::Wall>& a, const std::vector<SeenPolygon::Wall>& b,
+           double limit) {
   struct Start {
     double angle;
     const SeenPolygon::Wall* a;
     const SeenPolygon::Wall* b;
   };
   std::vector<Start> starts;
-  for (const auto& wall : a.walls()) starts.push_back({wall.begin, &wall, nullptr});
-  for (const auto& wall : b.walls()) starts.push_back({wall.begin, nullptr, &wall});
-  if (a.walls().empty() || b.walls().empty()) return false;
+  for (const auto& wall : a) starts.push_back({wall.begin, &wall, nullptr});
+  for (const auto& wall : b) starts.push_back({wall.begin, nullptr, &wall});
+  if (a.empty() || b.empty()) return false;
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Start& x, const Start& y) { return x.angle < y.angle; });
   const SeenPolygon::Wall *of_a = nullptr, *of_b = nullptr;
@@ -140,13 +158,15 @@ bool agree(const SeenPolygon& a, const SeenPolygon& b, double limit) {
       continue;
     }
     narrow = 0.0;
-    for (const double angle : {begin + margin, end - margin}) {
-      const TPoint2D u(std::cos(angle), std::sin(angle));
-      const double cos_a = dot(of_a->normal, u), cos_b = dot(of_b->normal, u);
-      if (cos_a <= 0.0 || cos_b <= 0.0) return false;
-      const double difference = std::abs(of_a->distance * cos_b - of_b->distance * cos_a);
-      if (difference > limit * std::min(cos_a, cos_b)) return false;
-    }
+    const auto agreeAt = [&](double angle) {
+      return agreeAlong({std::cos(angle), std::sin(angle)}, *of_a, *of_b, limit);
+    };
+    if (!agreeAt(begin + margin) || !agreeAt(end - margin)) return false;
+    if (of_a->is_arc == of_b->is_arc) continue;
+    // A wall may dip into the circle between the ends: it is nearest along its normal.
+    const TPoint2D& normal = of_a->is_arc ? of_b->normal : of_a->normal;
+    const double nearest = begin + wrapToTwoPi(std::atan2(normal.y, normal.x) - begin);
+    if (nearest > begin + margin && nearest < end - margin && !agreeAt(nearest)) return false;
   }
   return true;
 }

@@ -20,8 +20,9 @@ class SeenPolygon {
   struct Wall {
     double begin;  ///< [rad], of `from`
     TPoint2D from, to;
-    TPoint2D normal;  ///< of length 1, away from the origin
-    double distance;  ///< of the line from the origin [m], > 0
+    TPoint2D normal;      ///< of length 1, away from the origin
+    double distance;      ///< of the line from the origin [m], > 0
+    bool is_arc = false;  ///< not a wall: the circle of that distance, where sight ends
   };
 
   /// Vertices nearer than `tolerance` to the one before, or to the line through their neighbours,
@@ -62,5 +63,10 @@ class SeenPolygon {
 /// line seen in the other, but for sectors that are at most a few `limit` wide where the nearer
 /// view ends (a window that turns with the observer, a gap that is just closed). O(p + q).
 bool agree(const SeenPolygon& a, const SeenPolygon& b, double limit);
+
+/// The same of views in pieces, of which one may be of limited range: where it has an arc, the
+/// other has one too, or goes on at least as far.
+bool agree(const std::vector<SeenPolygon::Wall>& a, const std::vector<SeenPolygon::Wall>& b,
+           double limit);
 
 }  // namespace mrpt_polyloc

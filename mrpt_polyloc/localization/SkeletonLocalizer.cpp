@@ -13,6 +13,10 @@ using mrpt::math::TPose2D;
 /// polygon hides what is within some hundredths of one, seen from this much farther away.
 constexpr double kClosedCell = 1000.0;
 
+/// A cell takes as long to prepare as a single shot takes for so many vertices of the map: 17 us,
+/// and 2.7 us a vertex (tests/bench/exact_bench.cpp, n = 196).
+constexpr double kVerticesPerCell = 6.0;
+
 TPose2D composed(const TPose2D& a, const TPose2D& b) {
   const double c = std::cos(a.phi), s = std::sin(a.phi);
   return {a.x + c * b.x - s * b.y, a.y + s * b.x + c * b.y,
@@ -32,6 +36,19 @@ SkeletonLocalizer::SkeletonLocalizer(const PolygonMap& map, ExactLocalizerParams
       cells_(map, {max_cells, kUnlimitedRange}),
       classes_(cells_, params_.tolerance),
       single_shot_(map, params_) {}
+
+bool SkeletonLocalizer::pays(const PolygonMap& map, std::size_t queries, std::size_t max_cells) {
+  const auto n = static_cast<double>(map.vertexCount());
+  const double most_cells = static_cast<double>(queries) * n / kVerticesPerCell;
+  // Counting takes time with the square of what is counted; rooms make tens of cells for each
+  // reflex vertex.
+  if (most_cells < static_cast<double>(map.reflexVertexCount()) ||
+      map.reflexVertexCount() > max_cells / 10) {
+    return false;
+  }
+  const std::size_t cells = VisibilityCells::estimate(map).cells();
+  return cells <= max_cells && static_cast<double>(cells) <= most_cells;
+}
 
 std::size_t SkeletonLocalizer::bytes() const {
   return cells_.memory() + classes_.memory() + single_shot_.bytes();

@@ -31,6 +31,12 @@ class SkeletonLocalizer {
   /// O(m log m + log N) for a polygon of m vertices and N cells, and for each answer a view.
   LocalizationResult localize(const std::vector<TPoint2D>& view, const PosePrior& prior = {}) const;
 
+  /// Whether so many queries are answered sooner with preprocessing than by ExactLocalizer, by the
+  /// measured cost of a cell and of a single shot (tests/bench/exact_bench.cpp), and the map has at
+  /// most `max_cells` cells. Counts the cells only where the queries could pay for the count.
+  static bool pays(const PolygonMap& map, std::size_t queries,
+                   std::size_t max_cells = kDefaultCells);
+
   const VisibilityCells& cells() const { return cells_; }
   const SkeletonClasses& classes() const { return classes_; }
   std::size_t bytes() const;  ///< memory of what was prepared

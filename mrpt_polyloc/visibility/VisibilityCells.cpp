@@ -54,13 +54,11 @@ Edges edgesOf(const Triangulation& t, bool boundary) {
 }
 
 CellEstimate estimateOf(const Triangulation& t, const CriticalSegments& critical, double range) {
+  const Edges dividers = std::isfinite(range) ? edgesOf(t, false) : Edges{};
   CellEstimate estimate;
   estimate.windows = critical.segments.size();
-  estimate.crossings = countCrossings(critical.segments, t.vertices());
-  if (std::isfinite(range)) {
-    // Dividing edges cross segments too; seldom more than there are such edges per triangle.
-    estimate.windows += edgesOf(t, false).size();
-  }
+  estimate.dividers = dividers.size();
+  estimate.crossings = countCrossings(critical.segments, dividers, t.vertices());
   return estimate;
 }
 

@@ -13,10 +13,11 @@ namespace mrpt_polyloc {
 /// What a decomposition would take, found without building it.
 struct CellEstimate {
   std::size_t windows = 0;    ///< critical segments
-  std::size_t crossings = 0;  ///< between them, counted pair by pair in floating point
-  /// Upper bound of the cells (fewer where several segments cross in one point); with a limited
-  /// range an estimate only, as crossings with the edges that divide are not counted.
-  std::size_t cells() const { return crossings + windows + 1; }
+  std::size_t dividers = 0;   ///< edges of the triangulation, where the range is limited
+  std::size_t crossings = 0;  ///< between all of them, counted pair by pair in floating point
+  /// Upper bound of the cells: fewer where several segments cross in one point. A crossing that
+  /// rounding takes for a touch is not counted.
+  std::size_t cells() const { return crossings + windows + dividers + 1; }
   double megabytes() const;  ///< while it is built, from kBytesPerCell
 };
 

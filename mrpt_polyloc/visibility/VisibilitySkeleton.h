@@ -11,7 +11,7 @@
 
 namespace mrpt_polyloc {
 
-/// What of a view is the same from all points of a visibility cell (doc/theory.md, definition 5):
+/// What of a view is the same from all points of a visibility cell (doc/theory.md, definition 6):
 /// the vertices of the map that are seen, counterclockwise, and in the gap behind each the line of
 /// the one edge seen there, with how it ends: at the vertex before the gap, at the one after it, at
 /// both, or at neither. Where windows end is not part of it. Anchored on vertices alone: a view

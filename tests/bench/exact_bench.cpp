@@ -1,5 +1,6 @@
-// Exact localization of one view on a floor of about 200 vertices, with preprocessing and without,
-// with and without a compass.
+// Exact localization of one view, with preprocessing and without, with and without a compass, on
+// floors of n = 100, 196 and 388 vertices: two rows of rooms along a corridor, as many times as
+// many as the argument says.
 #include "tests/support/random_maps.h"
 #include <mrpt_polyloc/localization/ExactLocalizer.h>
 #include <mrpt_polyloc/localization/SkeletonLocalizer.h>
@@ -17,9 +18,9 @@ namespace {
 
 using Views = std::vector<std::vector<TPoint2D>>;
 
-PolygonMap floorOf200() {
+PolygonMap floorOf(const benchmark::State& state) {
   test::FloorPlanParams params = test::smallFlat();
-  params.rooms_per_side *= 2;
+  params.rooms_per_side *= static_cast<int>(state.range(0));
   return test::floorPlan(params, 1);
 }
 
@@ -66,38 +67,54 @@ void query(benchmark::State& state, const Localizer& localizer, const Views& vie
 }
 
 void singleShot(benchmark::State& state, bool has_compass) {
-  const PolygonMap map = floorOf200();
+  const PolygonMap map = floorOf(state);
   query(state, ExactLocalizer(map), randomViews(map), has_compass);
   state.counters["n"] = static_cast<double>(map.vertexCount());
 }
-BENCHMARK_CAPTURE(singleShot, with_compass, true)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(singleShot, without_compass, false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(singleShot, with_compass, true)
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(4)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(singleShot, without_compass, false)
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(4)
+    ->Unit(benchmark::kMicrosecond);
 
 void preprocessed(benchmark::State& state, bool has_compass) {
-  const PolygonMap map = floorOf200();
-  static const SkeletonLocalizer localizer(map);
+  const PolygonMap map = floorOf(state);
+  const SkeletonLocalizer localizer(map, {}, 1'000'000);
   query(state, localizer, randomViews(map), has_compass);
   state.counters["n"] = static_cast<double>(map.vertexCount());
   state.counters["cells"] = static_cast<double>(localizer.cells().size());
   state.counters["classes"] = static_cast<double>(localizer.classes().size());
   state.counters["mb"] = static_cast<double>(localizer.bytes()) * 1e-6;
 }
-BENCHMARK_CAPTURE(preprocessed, with_compass, true)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(preprocessed, without_compass, false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(preprocessed, with_compass, true)
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(4)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(preprocessed, without_compass, false)
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(4)
+    ->Unit(benchmark::kMicrosecond);
 
 /// Cells and classes apart.
 void prepareCells(benchmark::State& state) {
-  const PolygonMap map = floorOf200();
+  const PolygonMap map = floorOf(state);
   for (auto _ : state) benchmark::DoNotOptimize(VisibilityCells(map).size());
 }
-BENCHMARK(prepareCells)->Unit(benchmark::kMillisecond);
+BENCHMARK(prepareCells)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond);
 
 void prepareClasses(benchmark::State& state) {
-  const VisibilityCells cells(floorOf200());
+  const VisibilityCells cells(floorOf(state));
   for (auto _ : state) benchmark::DoNotOptimize(SkeletonClasses(cells, 1e-6).size());
   state.counters["cells"] = static_cast<double>(cells.size());
 }
-BENCHMARK(prepareClasses)->Unit(benchmark::kMillisecond);
+BENCHMARK(prepareClasses)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace mrpt_polyloc

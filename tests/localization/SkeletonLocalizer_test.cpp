@@ -239,6 +239,15 @@ TEST(SkeletonLocalizer, TakesRoundedVerticesAndRefusesWhatTheSingleShotRefuses) 
   EXPECT_THROW(classes.localize(view, prior), InvalidParamsError);
 }
 
+TEST(SkeletonLocalizer, PaysForManyQueriesWithinTheBudget) {
+  const PolygonMap map = test::pillarMap();
+  EXPECT_FALSE(SkeletonLocalizer::pays(map, 1));
+  EXPECT_TRUE(SkeletonLocalizer::pays(map, 100'000));
+  EXPECT_FALSE(SkeletonLocalizer::pays(map, 100'000, 100));
+  // As many more queries as there are more cells: never for a map of 35,000 vertices, and soon so.
+  EXPECT_FALSE(SkeletonLocalizer::pays(test::largeMap(), 1'000'000));
+}
+
 TEST(SkeletonLocalizer, IsRefusedOverTheBudgetWithTheCount) {
   const PolygonMap map = test::pillarMap();
   const CellEstimate estimate = VisibilityCells::estimate(map);
