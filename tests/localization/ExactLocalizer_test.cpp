@@ -59,10 +59,10 @@ TEST(ExactLocalizer, AnswersAreThoseOfBruteForceOverAllPairsOfVertices) {
   for (const auto& [name, map] : test::namedMaps()) {
     SCOPED_TRACE(name);
     const ExactLocalizer localizer(map);
-    const test::BruteForceRays map_rays(map);
+    const test::RayMap map_rays(map);
     for (const TPoint2D& p : test::randomFreePoints(map, 4, random)) {
       const auto view = seenFrom(map, {p.x, p.y, 0});
-      const test::BruteForceRays view_rays(PolygonMap({{wallRing(view), {}}}));
+      const test::RayMap view_rays(view);
       PosePrior prior;
       prior.compass = PosePrior::Compass{0.0, 0.0};
       const LocalizationResult result = localizer.localize(view, prior);

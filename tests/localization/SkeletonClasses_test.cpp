@@ -105,7 +105,7 @@ TEST(SkeletonClasses, AreEqualWhereViewsAreAndOnlyThere) {
     SCOPED_TRACE(name);
     const VisibilityCells cells(map);
     const SkeletonClasses classes(cells, kTolerance);
-    const test::BruteForceRays rays(map);
+    const test::RayMap rays(map);
     for (std::size_t k = 0; k < classes.size(); ++k) {
       const auto members = classes.embeddings(k);
       for (const auto& a : members) {
@@ -121,8 +121,7 @@ TEST(SkeletonClasses, AreEqualWhereViewsAreAndOnlyThere) {
           const auto cell_b = static_cast<std::size_t>(b.cell);
           if (!findCommonPlace(cells, cell_a, cell_b, motion, random, p)) continue;
           ++common;
-          const test::BruteForceRays seen(
-              PolygonMap({{wallRing(test::seenFrom(map, {p.x, p.y, 0})), {}}}));
+          const test::RayMap seen(test::seenFrom(map, {p.x, p.y, 0}));
           const TPoint2D q = moved(motion, p);
           EXPECT_TRUE(test::looksAlike(rays, {q.x, q.y, turn}, seen))
               << "cells " << a.cell << " " << b.cell;
@@ -140,8 +139,7 @@ TEST(SkeletonClasses, AreEqualWhereViewsAreAndOnlyThere) {
       const std::size_t b = representatives[random() % representatives.size()];
       if (a == b) continue;
       const TPoint2D p = cells.representative(a), q = cells.representative(b);
-      const test::BruteForceRays seen(
-          PolygonMap({{wallRing(test::seenFrom(map, {p.x, p.y, 0})), {}}}));
+      const test::RayMap seen(test::seenFrom(map, {p.x, p.y, 0}));
       EXPECT_FALSE(test::looksAlike(rays, {q.x, q.y, 0}, seen)) << "cells " << a << " " << b;
     }
   }

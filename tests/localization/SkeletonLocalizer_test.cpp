@@ -181,7 +181,7 @@ TEST(SkeletonLocalizer, FindsEveryPointOfADenseGridFromWhichTheSameIsSeen) {
                                                        {"windmill", test::windmillMap()}}) {
     SCOPED_TRACE(name);
     const SkeletonLocalizer classes(map, manyAnswers());
-    const test::BruteForceRays rays(map);
+    const test::RayMap rays(map);
     std::vector<TPoint2D> grid;
     const BoundingBox& box = map.boundingBox();
     for (double x = box.min.x + 0.125; x < box.max.x; x += 0.25) {
@@ -191,7 +191,7 @@ TEST(SkeletonLocalizer, FindsEveryPointOfADenseGridFromWhichTheSameIsSeen) {
     }
     for (std::size_t i = 0; i < grid.size(); i += 37) {
       const auto view = seenFrom(map, {grid[i].x, grid[i].y, 0});
-      const test::BruteForceRays seen(PolygonMap({{wallRing(view), {}}}));
+      const test::RayMap seen(view);
       PosePrior prior;
       prior.compass = PosePrior::Compass{0.0, 0.0};
       const LocalizationResult result = classes.localize(view, prior);

@@ -5,7 +5,10 @@
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 #include <mrpt_polyloc/visibility/visibility_polygon.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 /// Noise-free views as the exact queries take them, and what they answer.
@@ -34,17 +37,52 @@ inline bool holds(const LocalizationResult& result, const mrpt::math::TPose2D& p
   return false;
 }
 
-/// Whether rays from p in the map are as long as rays from the origin in the polygon, but for a few
-/// that graze a vertex. So many rays, for far teeth of a comb are seen in sectors below a degree.
-inline bool looksAlike(const BruteForceRays& map, const mrpt::math::TPose2D& pose,
-                       const BruteForceRays& view) {
-  int different = 0;
-  for (int i = 0; i < 4000 && different <= 4; ++i) {
-    const double angle = 0.0123 + kTwoPi * i / 4000;
-    const double in_map = map.cast({pose.x, pose.y}, angle + pose.phi).wall;
-    different += std::abs(in_map - view.cast({0, 0}, angle).wall) > 1e-4 ? 1 : 0;
+/// Directions relative to a robot: all around, and beside each vertex of a map, where what is seen
+/// changes if it does at all, be it in a sector of a thousandth of a degree.
+inline std::vector<double> directionsFrom(const PolygonMap& map, const mrpt::math::TPose2D& pose) {
+  std::vector<double> angles;
+  for (int i = 0; i < 120; ++i) angles.push_back(0.0123 + kTwoPi * i / 120);
+  for (const Ring* ring : map.rings()) {
+    for (const TPoint2D& v : ring->vertices) {
+      const double angle = std::atan2(v.y - pose.y, v.x - pose.x) - pose.phi;
+      angles.insert(angles.end(), {angle - 1e-5, angle + 1e-5});
+    }
   }
-  return different <= 4;
+  return angles;
+}
+
+/// A map for rays by brute force.
+struct RayMap {
+  explicit RayMap(PolygonMap m) : map(std::move(m)), rays(map) {}
+  /// A view as a room around the origin.
+  explicit RayMap(std::vector<TPoint2D> view)
+      : RayMap(PolygonMap({{wallRing(std::move(view)), {}}})) {}
+  PolygonMap map;
+  BruteForceRays rays;
+};
+
+/// How many rays from a pose in one map are not as long, within a range, as those from a pose in
+/// another one, by more than a tenth of a millimetre; counted up to `enough`.
+inline std::size_t countDifferent(const RayMap& a, const mrpt::math::TPose2D& pose_a,
+                                  const RayMap& b, const mrpt::math::TPose2D& pose_b, double range,
+                                  std::size_t enough) {
+  std::vector<double> angles = directionsFrom(a.map, pose_a);
+  const std::vector<double> more = directionsFrom(b.map, pose_b);
+  angles.insert(angles.end(), more.begin(), more.end());
+  const auto cut = [&](const RayMap& map, const mrpt::math::TPose2D& pose, double angle) {
+    const RayHit hit = map.rays.cast({pose.x, pose.y}, angle + pose.phi);
+    return std::min({hit.wall, hit.open, range});
+  };
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < angles.size() && count < enough; ++i) {
+    count += std::abs(cut(a, pose_a, angles[i]) - cut(b, pose_b, angles[i])) > 1e-4 ? 1 : 0;
+  }
+  return count;
+}
+
+/// Whether just this polygon is seen from a pose.
+inline bool looksAlike(const RayMap& map, const mrpt::math::TPose2D& pose, const RayMap& view) {
+  return countDifferent(map, pose, view, {0, 0, 0}, 1e9, 1) == 0;
 }
 
 }  // namespace mrpt_polyloc::test
