@@ -12,8 +12,8 @@
 namespace mrpt_polyloc {
 
 /// The cells of a map, sorted by what is seen from them: two are in one class if a rigid motion
-/// carries the skeleton of one to that of the other. Also the points that VisibilityCells calls
-/// tied, where it is in a class of its own or not.
+/// carries the skeleton of one to that of the other. The points that VisibilityCells calls tied are
+/// places of their own, as cells are.
 ///
 /// With a compass, the class up to translation is those of its embeddings that turn as it says.
 ///
