@@ -7,6 +7,7 @@
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/localization/ExactLocalizer.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
+#include <mrpt_polyloc/localization/SkeletonLocalizer.h>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -85,15 +86,22 @@ ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
           localizer->indexBytes()};
 }
 
-ScanLocalizer makeExact(const PolygonMap& map, const SearchOptions& search) {
-  ExactLocalizerParams params;
-  params.max_hypotheses = search.max_hypotheses;
-  const auto localizer = std::make_shared<const ExactLocalizer>(map, params);
+/// What both exact localizers are to the programs.
+template <class Localizer>
+ScanLocalizer exactLocalizer(const PolygonMap& map, const ExactLocalizerParams& params) {
+  const auto localizer = std::make_shared<const Localizer>(map, params);
   return {map,
           [localizer](const RangeScan& scan, const PosePrior& prior) {
             return localizer->localize(viewPolygon(scan), prior);
           },
           localizer->bytes()};
+}
+
+ScanLocalizer makeExact(const PolygonMap& map, const SearchOptions& search, std::size_t scans) {
+  ExactLocalizerParams params;
+  params.max_hypotheses = search.max_hypotheses;
+  return SkeletonLocalizer::pays(map, scans) ? exactLocalizer<SkeletonLocalizer>(map, params)
+                                             : exactLocalizer<ExactLocalizer>(map, params);
 }
 
 LocalizedScan localizeOne(const ScanLocalizer& localizer, const RangeScan& scan, std::size_t row,
@@ -143,8 +151,9 @@ void addCertifiedOptions(CLI::App& options, SearchOptions& search) {
       ->type_name("MS");
 }
 
-ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search) {
-  return search.method == "exact" ? makeExact(map, search) : makeGlobal(std::move(map), search);
+ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::size_t scans) {
+  if (search.method == "exact") return makeExact(map, search, scans);
+  return makeGlobal(std::move(map), search);
 }
 
 std::vector<RangeScan> loadSearchedScans(const SearchOptions& search, const ScanFileOptions& file) {

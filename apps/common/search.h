@@ -41,9 +41,10 @@ struct ScanLocalizer {
 /// Adds --index and --time-budget, which are usage errors with another method than certified.
 void addCertifiedOptions(CLI::App& options, SearchOptions& search);
 
-/// Prepares the search of `search.method` in a map. Reads `search.index` if it is there, else writes
-/// it. \throws FormatError naming it
-ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search);
+/// Prepares the search of `search.method` in a map, for so many scans: for `exact` with the map's
+/// skeletons where that pays. Reads `search.index` if it is there, else writes it.
+/// \throws FormatError naming the index
+ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::size_t scans);
 
 /// What the method searches for: the scans of a log or, for `exact`, the polygons of a WKT file
 /// (see loadViewPolygons()).

@@ -44,7 +44,7 @@ int localize(const Program& program, const LocalizeOptions& options) {
   RepairedMap loaded = loadMapWithWarnings(program, options.search.map);
   const std::vector<RangeScan> scans = loadSearchedScans(options.search, options.file);
   const std::vector<std::size_t> rows = chosenRows(options, scans.size());
-  const ScanLocalizer localizer = makeLocalizer(std::move(loaded.map), options.search);
+  const ScanLocalizer localizer = makeLocalizer(std::move(loaded.map), options.search, rows.size());
   const std::vector<LocalizedScan> localized =
       localizeScans(localizer, scans, rows, options.prior, options.search);
 

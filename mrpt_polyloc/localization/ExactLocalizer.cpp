@@ -1,12 +1,10 @@
 #include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/params_check.h>
+#include <mrpt_polyloc/localization/ExactCandidates.h>
 #include <mrpt_polyloc/localization/ExactLocalizer.h>
 #include <mrpt_polyloc/localization/SeenPolygon.h>
-#include <mrpt_polyloc/visibility/visibility_polygon.h>
 
-#include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace mrpt_polyloc {
 namespace {
@@ -20,44 +18,6 @@ double angleOf(const TPoint2D& from, const TPoint2D& to) {
 TPoint2D turned(const TPoint2D& p, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * p.x - s * p.y, s * p.x + c * p.y};
-}
-
-/// A wall of the view, of which an end is a vertex of the map.
-struct Anchor {
-  TPoint2D from, to;
-  bool at_begin = false;
-  double length = 0.0;
-};
-
-Anchor longestAnchor(const SeenPolygon& seen) {
-  Anchor anchor;
-  for (std::size_t i = 0; i < seen.walls().size(); ++i) {
-    const SeenPolygon::Wall& wall = seen.walls()[i];
-    const double length = (wall.to - wall.from).norm();
-    const bool at_begin = seen.beginsAtVertex(i);
-    if (length <= anchor.length || !(at_begin || seen.endsAtVertex(i))) continue;
-    anchor = {wall.from, wall.to, at_begin, length};
-  }
-  if (anchor.length == 0.0) throw InvalidParamsError("no vertex of the polygon can be the map's");
-  return anchor;
-}
-
-bool isAllowed(const PosePrior& prior, const TPose2D& pose, double slack) {
-  if (prior.compass &&
-      angleBetween(pose.phi, prior.compass->heading) > prior.compass->tolerance + slack) {
-    return false;
-  }
-  return !prior.near ||
-         std::hypot(pose.x - prior.near->x, pose.y - prior.near->y) <= prior.near->radius;
-}
-
-Hypothesis toHypothesis(const TPose2D& pose, std::size_t count, double tolerance) {
-  Hypothesis hypothesis;
-  hypothesis.pose_map_robot = pose;
-  hypothesis.covariance.setZero();
-  for (int i = 0; i < 3; ++i) hypothesis.covariance(i, i) = tolerance * tolerance;
-  hypothesis.weight = 1.0 / static_cast<double>(count);
-  return hypothesis;
 }
 
 }  // namespace
@@ -90,15 +50,9 @@ LocalizationResult ExactLocalizer::localize(const std::vector<TPoint2D>& view,
                                             const PosePrior& prior) const {
   prior.check();
   const SeenPolygon seen(view, params_.tolerance);
-  const Anchor anchor = longestAnchor(seen);
+  ExactCandidates candidates(triangulation_, seen, prior, params_.tolerance);
+  const WallAnchor& anchor = candidates.anchor();
   const TPoint2D& anchor_point = anchor.at_begin ? anchor.from : anchor.to;
-  // Both ends of the anchor may be off, which turns all that is seen about it.
-  const double slack = 2.0 * params_.tolerance / anchor.length;
-  const double limit = 2.0 * params_.tolerance + 2.0 * slack * seen.radius();
-
-  ViewExpander expander(triangulation_, true);
-  LocalizationResult result;
-  std::vector<TPose2D> poses;
   for (const Border& border : borders_) {
     TPose2D pose(0, 0, angleOf(border.from, border.to) - angleOf(anchor.from, anchor.to));
     pose.phi = std::remainder(pose.phi, kTwoPi);
@@ -106,28 +60,9 @@ LocalizationResult ExactLocalizer::localize(const std::vector<TPoint2D>& view,
         (anchor.at_begin ? border.from : border.to) - turned(anchor_point, pose.phi);
     pose.x = point.x;
     pose.y = point.y;
-    if (!isAllowed(prior, pose, slack) || !triangulation_.isFree(point)) continue;
-    ++result.statistics.evaluated;
-    std::vector<TPoint2D> expected = visibilityPolygon(triangulation_, expander.expand(point));
-    for (TPoint2D& vertex : expected) vertex = turned(vertex - point, -pose.phi);
-    try {
-      if (!agree(seen, SeenPolygon(expected, params_.tolerance), limit)) continue;
-    } catch (const InvalidParamsError&) {
-      continue;  // on a wall: what is seen from there does not surround the robot
-    }
-    poses.push_back(pose);
+    candidates.consider(pose);
   }
-  std::sort(poses.begin(), poses.end(), [](const TPose2D& a, const TPose2D& b) {
-    return std::tie(a.x, a.y, a.phi) < std::tie(b.x, b.y, b.phi);
-  });
-  result.status = poses.empty()       ? LocalizationStatus::no_match
-                  : poses.size() == 1 ? LocalizationStatus::unique
-                                      : LocalizationStatus::ambiguous;
-  if (poses.size() > params_.max_hypotheses) poses.resize(params_.max_hypotheses);
-  for (const TPose2D& pose : poses) {
-    result.hypotheses.push_back(toHypothesis(pose, poses.size(), params_.tolerance));
-  }
-  return result;
+  return candidates.result(params_.max_hypotheses);
 }
 
 }  // namespace mrpt_polyloc

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace mrpt_polyloc {
 namespace {
-
-using mrpt::math::TPoint2D;
 
 double cross(const TPoint2D& a, const TPoint2D& b) {
   return a.x * b.y - a.y * b.x;
@@ -21,27 +20,48 @@ std::string toText(const TPoint2D& p) {
   return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
 }
 
-/// Whether b lies between a and c, within the tolerance of their line.
-bool isBetween(const TPoint2D& a, const TPoint2D& b, const TPoint2D& c, double tolerance) {
-  const TPoint2D ac = c - a;
-  return std::abs(cross(ac, b - a)) <= tolerance * ac.norm() && dot(b - a, c - b) > 0.0;
+/// Whether the point seen in direction u in one piece lies within the limit of the other.
+bool agreeAlong(const TPoint2D& u, const SeenPolygon::Wall& a, const SeenPolygon::Wall& b,
+                double limit) {
+  if (a.is_arc && b.is_arc) return std::abs(a.distance - b.distance) <= limit;
+  if (b.is_arc) return agreeAlong(u, b, a, limit);
+  const double cos_b = dot(b.normal, u);
+  if (cos_b <= 0.0) return false;
+  if (a.is_arc) return a.distance * cos_b - b.distance <= limit;
+  const double cos_a = dot(a.normal, u);
+  if (cos_a <= 0.0) return false;
+  return std::abs(a.distance * cos_b - b.distance * cos_a) <= limit * std::min(cos_a, cos_b);
 }
 
-std::vector<TPoint2D> cleaned(const std::vector<TPoint2D>& vertices, double tolerance) {
+}  // namespace
+
+bool SeenPolygon::isWithin(double length, double limit) {
+  if (length > 1e-2 * tolerance_ && length < 4.0 * limit) is_clear_ = false;
+  return length <= limit;
+}
+
+/// Whether b lies between a and c, within the tolerance of their line.
+bool SeenPolygon::isBetween(const TPoint2D& a, const TPoint2D& b, const TPoint2D& c) {
+  const TPoint2D ac = c - a;
+  return dot(b - a, c - b) > 0.0 &&
+         isWithin(std::abs(cross(ac, b - a)) / ac.norm(), 2.0 * tolerance_);
+}
+
+std::vector<TPoint2D> SeenPolygon::cleaned(const std::vector<TPoint2D>& vertices) {
   std::vector<TPoint2D> kept;
   for (const TPoint2D& v : vertices) {
     if (!std::isfinite(v.x) || !std::isfinite(v.y)) {
       throw InvalidParamsError("vertex " + toText(v) + " is not finite");
     }
-    if (kept.empty() || (v - kept.back()).norm() > tolerance) kept.push_back(v);
+    if (kept.empty() || !isWithin((v - kept.back()).norm(), tolerance_)) kept.push_back(v);
   }
-  while (kept.size() > 1 && (kept.front() - kept.back()).norm() <= tolerance) kept.pop_back();
+  while (kept.size() > 1 && isWithin((kept.front() - kept.back()).norm(), tolerance_)) {
+    kept.pop_back();
+  }
   std::vector<TPoint2D> corners;
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const TPoint2D& before = corners.empty() ? kept.back() : corners.back();
-    if (!isBetween(before, kept[i], kept[(i + 1) % kept.size()], 2.0 * tolerance)) {
-      corners.push_back(kept[i]);
-    }
+    if (!isBetween(before, kept[i], kept[(i + 1) % kept.size()])) corners.push_back(kept[i]);
   }
   if (corners.size() < 3) {
     throw InvalidParamsError("a polygon of " + std::to_string(corners.size()) +
@@ -50,11 +70,9 @@ std::vector<TPoint2D> cleaned(const std::vector<TPoint2D>& vertices, double tole
   return corners;
 }
 
-}  // namespace
-
 SeenPolygon::SeenPolygon(const std::vector<TPoint2D>& vertices, double tolerance)
     : tolerance_(tolerance) {
-  const std::vector<TPoint2D> corners = cleaned(vertices, tolerance);
+  const std::vector<TPoint2D> corners = cleaned(vertices);
   double turned = 0.0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const TPoint2D &a = corners[i], &b = corners[(i + 1) % corners.size()];
@@ -69,13 +87,17 @@ SeenPolygon::SeenPolygon(const std::vector<TPoint2D>& vertices, double tolerance
       throw InvalidParamsError("not counterclockwise and star-shaped around the origin: edge " +
                                toText(a) + " to " + toText(b) + " is seen from behind");
     }
-    if (area <= 2.0 * tolerance * far) continue;  // a window
+    if (isWithin(std::abs(area) / far, 2.0 * tolerance)) continue;  // a window
     const TPoint2D normal((b.y - a.y) / length, (a.x - b.x) / length);
-    walls_.push_back({std::atan2(a.y, a.x), a, b, normal, area / length});
+    walls_.push_back({std::atan2(a.y, a.x), a, b, normal, area / length, false});
   }
   if (std::lround(turned / kTwoPi) != 1) {
     throw InvalidParamsError("the polygon winds " + std::to_string(std::lround(turned / kTwoPi)) +
                              " times around the origin, not once");
+  }
+  for (std::size_t i = 0; i < walls_.size(); ++i) {  // windows shorter than this count as corners
+    const TPoint2D& before = walls_[(i + walls_.size() - 1) % walls_.size()].to;
+    isWithin(std::abs(walls_[i].from.norm() - before.norm()), 4.0 * tolerance_);
   }
 }
 
@@ -88,16 +110,32 @@ bool SeenPolygon::endsAtVertex(std::size_t wall) const {
   return walls_[wall].to.norm() < walls_[(wall + 1) % walls_.size()].from.norm() + 4.0 * tolerance_;
 }
 
+VisibilitySkeleton SeenPolygon::skeleton() const {
+  std::vector<VisibilitySkeleton::Gap> gaps;
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    const Wall& before = walls_[(i + walls_.size() - 1) % walls_.size()];
+    const bool begins = beginsAtVertex(i);
+    gaps.push_back({begins ? walls_[i].from : before.to, walls_[i].from, walls_[i].to, begins,
+                    endsAtVertex(i)});
+  }
+  return VisibilitySkeleton(std::move(gaps));
+}
+
 bool agree(const SeenPolygon& a, const SeenPolygon& b, double limit) {
+  return agree(a.walls(), b.walls(), limit);
+}
+
+bool agree(const std::vector<SeenPolygon::Wall>& a, const std::vector<SeenPolygon::Wall>& b,
+           double limit) {
   struct Start {
     double angle;
     const SeenPolygon::Wall* a;
     const SeenPolygon::Wall* b;
   };
   std::vector<Start> starts;
-  for (const auto& wall : a.walls()) starts.push_back({wall.begin, &wall, nullptr});
-  for (const auto& wall : b.walls()) starts.push_back({wall.begin, nullptr, &wall});
-  if (a.walls().empty() || b.walls().empty()) return false;
+  for (const auto& wall : a) starts.push_back({wall.begin, &wall, nullptr});
+  for (const auto& wall : b) starts.push_back({wall.begin, nullptr, &wall});
+  if (a.empty() || b.empty()) return false;
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Start& x, const Start& y) { return x.angle < y.angle; });
   const SeenPolygon::Wall *of_a = nullptr, *of_b = nullptr;
@@ -120,13 +158,15 @@ bool agree(const SeenPolygon& a, const SeenPolygon& b, double limit) {
       continue;
     }
     narrow = 0.0;
-    for (const double angle : {begin + margin, end - margin}) {
-      const TPoint2D u(std::cos(angle), std::sin(angle));
-      const double cos_a = dot(of_a->normal, u), cos_b = dot(of_b->normal, u);
-      if (cos_a <= 0.0 || cos_b <= 0.0) return false;
-      const double difference = std::abs(of_a->distance * cos_b - of_b->distance * cos_a);
-      if (difference > limit * std::min(cos_a, cos_b)) return false;
-    }
+    const auto agreeAt = [&](double angle) {
+      return agreeAlong({std::cos(angle), std::sin(angle)}, *of_a, *of_b, limit);
+    };
+    if (!agreeAt(begin + margin) || !agreeAt(end - margin)) return false;
+    if (of_a->is_arc == of_b->is_arc) continue;
+    // A wall may dip into the circle between the ends: it is nearest along its normal.
+    const TPoint2D& normal = of_a->is_arc ? of_b->normal : of_a->normal;
+    const double nearest = begin + wrapToTwoPi(std::atan2(normal.y, normal.x) - begin);
+    if (nearest > begin + margin && nearest < end - margin && !agreeAt(nearest)) return false;
   }
   return true;
 }

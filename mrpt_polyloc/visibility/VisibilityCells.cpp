@@ -54,14 +54,21 @@ Edges edgesOf(const Triangulation& t, bool boundary) {
 }
 
 CellEstimate estimateOf(const Triangulation& t, const CriticalSegments& critical, double range) {
+  const Edges dividers = std::isfinite(range) ? edgesOf(t, false) : Edges{};
   CellEstimate estimate;
   estimate.windows = critical.segments.size();
-  estimate.crossings = countCrossings(critical.segments, t.vertices());
-  if (std::isfinite(range)) {
-    // Dividing edges cross segments too; seldom more than there are such edges per triangle.
-    estimate.windows += edgesOf(t, false).size();
-  }
+  estimate.dividers = dividers.size();
+  estimate.crossings = countCrossings(critical.segments, dividers, t.vertices());
   return estimate;
+}
+
+/// Twice the area over the perimeter: about the width, of a thin polygon too.
+double widthOf(const std::vector<TPoint2D>& polygon) {
+  double perimeter = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    perimeter += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+  }
+  return perimeter > 0.0 ? 2.0 * signedArea(polygon) / perimeter : 0.0;
 }
 
 std::string overBudget(const CellEstimate& estimate, std::size_t budget) {
@@ -231,6 +238,48 @@ std::int32_t VisibilityCells::locate(const TPoint2D& point) const {
     if (miss == 0.0) break;
   }
   return nearest;
+}
+
+double VisibilityCells::distanceOutside(std::size_t cell, const TPoint2D& point) const {
+  double worst = 0.0;
+  const std::size_t begin = faces_.first[cell], end = faces_.first[cell + 1];
+  for (std::size_t e = begin; e < end; ++e) {
+    const TPoint2D& a = vertex(e);
+    const TPoint2D& b = vertex(e + 1 < end ? e + 1 : begin);
+    const double x = b.x - a.x, y = b.y - a.y, length = std::hypot(x, y);
+    if (length <= 0.0) continue;
+    worst = std::max(worst, (y * (point.x - a.x) - x * (point.y - a.y)) / length);
+  }
+  return worst;
+}
+
+std::vector<TPoint2D> VisibilityCells::tiedPoints(double width) const {
+  std::vector<std::uint32_t> degree(faces_.vertices.size(), 0);
+  std::vector<bool> on_boundary(faces_.vertices.size(), false);
+  std::vector<bool> is_tied(faces_.vertices.size(), false);
+  std::vector<TPoint2D> points;
+  for (std::size_t cell = 0; cell < size(); ++cell) {
+    if (widthOf(polygon(cell)) < width) points.push_back(representative(cell));
+    for (std::size_t i = 0; i < edgeCount(cell); ++i) {
+      const std::size_t begin = faces_.first[cell];
+      const auto from = static_cast<std::size_t>(faces_.edges[begin + i].from);
+      const auto to =
+          static_cast<std::size_t>(faces_.edges[begin + (i + 1) % edgeCount(cell)].from);
+      ++degree[from];
+      if (neighbor(cell, i) == kNone) on_boundary[from] = on_boundary[to] = true;
+      const std::vector<Change> changes = changesAcross(cell, i);
+      const bool conflicting = std::any_of(changes.begin(), changes.end(), [&](const Change& c) {
+        return c.appears != changes.front().appears;
+      });
+      if (!conflicting || neighbor(cell, i) < static_cast<std::int32_t>(cell)) continue;
+      is_tied[from] = is_tied[to] = true;
+      points.push_back((faces_.vertices[from] + faces_.vertices[to]) * 0.5);
+    }
+  }
+  for (std::size_t v = 0; v < degree.size(); ++v) {
+    if (!on_boundary[v] && (is_tied[v] || degree[v] > 4)) points.push_back(faces_.vertices[v]);
+  }
+  return points;
 }
 
 std::size_t VisibilityCells::memory() const {

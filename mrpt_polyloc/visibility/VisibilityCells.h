@@ -13,10 +13,11 @@ namespace mrpt_polyloc {
 /// What a decomposition would take, found without building it.
 struct CellEstimate {
   std::size_t windows = 0;    ///< critical segments
-  std::size_t crossings = 0;  ///< between them, counted pair by pair in floating point
-  /// Upper bound of the cells (fewer where several segments cross in one point); with a limited
-  /// range an estimate only, as crossings with the edges that divide are not counted.
-  std::size_t cells() const { return crossings + windows + 1; }
+  std::size_t dividers = 0;   ///< edges of the triangulation, where the range is limited
+  std::size_t crossings = 0;  ///< between all of them, counted pair by pair in floating point
+  /// Upper bound of the cells: fewer where several segments cross in one point. A crossing that
+  /// rounding takes for a touch is not counted.
+  std::size_t cells() const { return crossings + windows + dividers + 1; }
   double megabytes() const;  ///< while it is built, from kBytesPerCell
 };
 
@@ -88,6 +89,17 @@ class VisibilityCells {
   /// The cell that holds a point (any one of them on an edge), kNone outside free space. Takes the
   /// rounded polygons: within some 1e-12 of an edge the neighbour may be given.
   std::int32_t locate(const TPoint2D& point) const;
+
+  /// How far a point lies beyond the line of an edge of a cell, at most over its edges [m]; 0
+  /// inside and on the border.
+  double distanceOutside(std::size_t cell, const TPoint2D& point) const;
+
+  /// Points from which the view may be that of none of the cells around, once each, as vertices are
+  /// hidden that are seen from one cell around or another: inner points where three critical lines
+  /// or more meet; of edges across which vertices appear and others disappear the middle, and the
+  /// ends that are inner points; and, for lines that meet or coincide but for rounding, the
+  /// representatives of cells narrower than `width` [m].
+  std::vector<TPoint2D> tiedPoints(double width) const;
 
   /// Memory of what is kept [bytes], without the triangulation.
   std::size_t memory() const;

@@ -37,14 +37,19 @@ bool cross(const Span& s, const Span& t) {
 }  // namespace
 
 std::size_t countCrossings(const std::vector<CriticalSegment>& segments,
+                           const std::vector<std::pair<std::int32_t, std::int32_t>>& edges,
                            const std::vector<TPoint2D>& vertices) {
   if (segments.empty()) return 0;
   const TPoint2D origin = vertices.front();
   std::vector<Span> spans;
-  spans.reserve(segments.size());
+  spans.reserve(segments.size() + edges.size());
   for (const CriticalSegment& s : segments) {
     spans.push_back(
         spanOf(vertices[static_cast<std::size_t>(s.blocker)], endOf(s, vertices), origin));
+  }
+  for (const auto& [from, to] : edges) {
+    spans.push_back(spanOf(vertices[static_cast<std::size_t>(from)],
+                           vertices[static_cast<std::size_t>(to)], origin));
   }
   std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.x < b.x; });
   std::size_t count = 0;

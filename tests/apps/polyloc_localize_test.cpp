@@ -350,6 +350,25 @@ TEST_F(PolylocLocalize, TheShippedNichesHaveTwoAnswersAndOnlyTwo) {
   EXPECT_EQ(readFile(path("view.wkt")), readFile(datasets + "niches_query.wkt"));
 }
 
+TEST_F(PolylocLocalize, ManyPolygonsAreAnsweredAsOneIs) {
+  // So many that the map's skeletons are prepared for them.
+  const std::string datasets = POLYLOC_SOURCE_DIR "/datasets/";
+  const std::string query = readFile(datasets + "niches_query.wkt");
+  std::string many;
+  for (int i = 0; i < 1500; ++i) many += query;
+  const std::vector<std::string> arguments = {
+      "--map", datasets + "niches.wkt", "--scans", write("many.wkt", many), "--method", "exact"};
+  const Outcome outcome = run("polyloc-localize", arguments);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 3001U);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> fields = fieldsOf(lines[i]);
+    EXPECT_EQ(fields[2], "ambiguous");
+    EXPECT_EQ(fields[4] + " " + fields[5], i % 2 == 1 ? "4.2500 -3.2500" : "13.2500 -3.2500");
+  }
+}
+
 TEST_F(PolylocLocalize, PolygonsThatCannotBeSeenFail) {
   const auto expectFailure = [&](const std::string& text, const std::string& reason) {
     const std::string view = write("view.wkt", text);

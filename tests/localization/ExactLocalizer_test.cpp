@@ -1,10 +1,8 @@
-#include "tests/support/BruteForceRays.h"
+#include "exact_views.h"
 #include "tests/support/map_factories.h"
 #include "tests/support/random_maps.h"
-#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/localization/ExactLocalizer.h>
-#include <mrpt_polyloc/visibility/visibility_polygon.h>
 
 #include <gtest/gtest.h>
 
@@ -15,26 +13,9 @@
 namespace mrpt_polyloc {
 namespace {
 
-std::vector<TPoint2D> seenFrom(const PolygonMap& map, const mrpt::math::TPose2D& pose) {
-  const Triangulation triangulation(map);
-  ViewExpander expander(triangulation, true);
-  auto polygon = visibilityPolygon(triangulation, expander.expand({pose.x, pose.y}));
-  const double c = std::cos(pose.phi), s = std::sin(pose.phi);
-  for (TPoint2D& v : polygon) {
-    const TPoint2D d(v.x - pose.x, v.y - pose.y);
-    v = {c * d.x + s * d.y, c * d.y - s * d.x};
-  }
-  return polygon;
-}
-
-bool holds(const LocalizationResult& result, const mrpt::math::TPose2D& pose) {
-  for (const Hypothesis& h : result.hypotheses) {
-    const auto& p = h.pose_map_robot;
-    if (std::hypot(p.x - pose.x, p.y - pose.y) < 1e-4 && angleBetween(p.phi, pose.phi) < 1e-4)
-      return true;
-  }
-  return false;
-}
+using test::holds;
+using test::looksAlike;
+using test::seenFrom;
 
 void expectFound(const PolygonMap& map, unsigned seed) {
   std::mt19937 random(seed);
@@ -73,39 +54,26 @@ TEST(ExactLocalizer, FindsRandomPosesOfFloorPlans) {
   }
 }
 
-/// Whether rays from p in the map are as long as rays from the origin in the polygon, but for a few
-/// that graze a vertex. So many rays, for far teeth of a comb are seen in sectors below a degree.
-bool looksAlike(const test::BruteForceRays& map, const TPoint2D& p,
-                const test::BruteForceRays& view) {
-  int different = 0;
-  for (int i = 0; i < 4000; ++i) {
-    const double angle = 0.0123 + kTwoPi * i / 4000;
-    if (different > 4) break;
-    different += std::abs(map.cast(p, angle).wall - view.cast({0, 0}, angle).wall) > 1e-4 ? 1 : 0;
-  }
-  return different <= 4;
-}
-
 TEST(ExactLocalizer, AnswersAreThoseOfBruteForceOverAllPairsOfVertices) {
   std::mt19937 random(3);
   for (const auto& [name, map] : test::namedMaps()) {
     SCOPED_TRACE(name);
     const ExactLocalizer localizer(map);
-    const test::BruteForceRays map_rays(map);
+    const test::RayMap map_rays(map);
     for (const TPoint2D& p : test::randomFreePoints(map, 4, random)) {
       const auto view = seenFrom(map, {p.x, p.y, 0});
-      const test::BruteForceRays view_rays(PolygonMap({{wallRing(view), {}}}));
+      const test::RayMap view_rays(view);
       PosePrior prior;
       prior.compass = PosePrior::Compass{0.0, 0.0};
       const LocalizationResult result = localizer.localize(view, prior);
       for (const Hypothesis& h : result.hypotheses) {
-        EXPECT_TRUE(looksAlike(map_rays, {h.pose_map_robot.x, h.pose_map_robot.y}, view_rays));
+        EXPECT_TRUE(looksAlike(map_rays, h.pose_map_robot, view_rays));
       }
       for (const Ring* ring : map.rings()) {
         for (const TPoint2D& vertex : ring->vertices) {
           for (const TPoint2D& seen : view) {
             const TPoint2D q = vertex - seen;
-            if (!map.contains(q) || !looksAlike(map_rays, q, view_rays)) continue;
+            if (!map.contains(q) || !looksAlike(map_rays, {q.x, q.y, 0}, view_rays)) continue;
             EXPECT_TRUE(holds(result, {q.x, q.y, 0})) << q.x << " " << q.y;
           }
         }

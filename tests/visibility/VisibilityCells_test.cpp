@@ -77,7 +77,9 @@ std::vector<std::pair<std::string, PolygonMap>> maps() {
   return all;
 }
 
-constexpr double kThin = 1e-6;  // cells narrower than this are not sampled
+/// Cells narrower than this are not sampled: points in them are no better than their corners, which
+/// are rounded. Lines that would meet but for rounding make such cells.
+constexpr double kThin = 1e-11;
 
 TEST(VisibilityCells, AreConvexAndFillFreeSpace) {
   for (const auto& [name, map] : maps()) {
@@ -192,6 +194,65 @@ TEST(VisibilityCells, AreFoundAsByBruteForce) {
   }
 }
 
+TEST(VisibilityCells, TellHowFarOutsideOfThemAPointIs) {
+  const VisibilityCells square(test::squareMap(4.0));
+  EXPECT_EQ(square.distanceOutside(0, {1, 2}), 0.0);
+  EXPECT_EQ(square.distanceOutside(0, {4, 2}), 0.0);
+  EXPECT_DOUBLE_EQ(square.distanceOutside(0, {4.5, 2}), 0.5);
+  EXPECT_DOUBLE_EQ(square.distanceOutside(0, {5, -2}), 2.0);
+}
+
+TEST(VisibilityCells, HaveTiedPointsWhereThreeCriticalLinesMeet) {
+  // Against all pairs of critical segments: crossings inside that a third one passes.
+  for (const PolygonMap& map : {test::pillarMap(), test::tJunctionMap(), test::lRoomMap()}) {
+    const VisibilityCells cells(map);
+    const auto& vertices = cells.triangulation().vertices();
+    std::vector<std::pair<TPoint2D, TPoint2D>> segments;
+    for (const CriticalSegment& s : cells.criticalSegments().segments) {
+      segments.emplace_back(vertices[static_cast<std::size_t>(s.blocker)], endOf(s, vertices));
+    }
+    const auto through = [&](const TPoint2D& p, const std::pair<TPoint2D, TPoint2D>& s) {
+      const TPoint2D d = s.second - s.first, e = p - s.first;
+      const double share = (e.x * d.x + e.y * d.y) / (d.x * d.x + d.y * d.y);
+      return share > 1e-9 && share < 1 - 1e-9 && (e - d * share).norm() < 1e-9;
+    };
+    const std::vector<TPoint2D> tied = cells.tiedPoints(0.0);
+    const auto isTied = [&](const TPoint2D& p) {
+      return std::any_of(tied.begin(), tied.end(),
+                         [&](const TPoint2D& t) { return (t - p).norm() < 1e-9; });
+    };
+    std::size_t meetings = 0;
+    for (const auto& s : segments) {
+      for (const auto& t : segments) {
+        const TPoint2D d = s.second - s.first, e = t.second - t.first, o = t.first - s.first;
+        const double turn = d.x * e.y - d.y * e.x;
+        if (std::abs(turn) < 1e-9 * d.norm() * e.norm()) continue;
+        const TPoint2D p = s.first + d * ((o.x * e.y - o.y * e.x) / turn);
+        if (!through(p, s) || !through(p, t)) continue;
+        std::set<long> slopes;  // of the lines through the point
+        for (const auto& other : segments) {
+          if (!through(p, other)) continue;
+          const TPoint2D along = other.second - other.first;
+          const double angle = std::atan2(along.y, along.x);
+          const long slope = std::lround(std::remainder(angle, M_PI) * 1e6);
+          slopes.insert(slope == -1570796 ? 1570796 : slope);  // upwards as downwards
+        }
+        if (slopes.size() < 3) continue;
+        ++meetings;
+        EXPECT_TRUE(isTied(p)) << p.x << " " << p.y;
+      }
+    }
+    for (const TPoint2D& p : tied) {
+      const auto lines = std::count_if(segments.begin(), segments.end(),
+                                       [&](const auto& s) { return through(p, s); });
+      EXPECT_GE(lines, 2) << p.x << " " << p.y;
+    }
+    if (map.holeCount() == 6) {
+      EXPECT_GT(meetings, 0U);
+    }
+  }
+}
+
 TEST(VisibilityCells, WithALimitTellTheVerticesWithinItApart) {
   std::mt19937 random(75);
   constexpr double kRange = 2.5;
@@ -234,6 +295,17 @@ TEST(VisibilityCells, AreRefusedOverBudget) {
   }
   EXPECT_THROW(VisibilityCells(map, {100, -1.0}), InvalidParamsError);
   EXPECT_THROW(VisibilityCells(map, {100, std::nan("")}), InvalidParamsError);
+}
+
+TEST(VisibilityCells, AreNeverMoreThanEstimated) {
+  for (const auto& [name, map] : maps()) {
+    SCOPED_TRACE(name);
+    for (const double range : {kUnlimitedRange, 2.5, 0.7}) {
+      EXPECT_GE(VisibilityCells::estimate(map, range).cells(),
+                VisibilityCells(map, {1'000'000, range}).size())
+          << "range " << range;
+    }
+  }
 }
 
 TEST(VisibilityCells, OfAConvexRoomAreOne) {
