@@ -3,15 +3,15 @@
 #include "Progress.h"
 #include "map_input.h"
 #include "view_polygons.h"
+#include <mrpt_polyloc/localization/CellLocalizer.h>
 #include <mrpt_polyloc/localization/ExactLocalizer.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
-#include <array>
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -21,13 +21,12 @@ namespace {
 constexpr std::uint64_t kMostThreads = 1024;
 constexpr std::uint64_t kMostHypotheses = 1'000'000;
 
-constexpr const char* kBuiltMethods = "exhaustive, exact";
+constexpr const char* kBuiltMethods = "exhaustive, cells, exact";
 
 /// \throws UsageError if the method is unknown or not built yet.
 void checkMethod(const std::string& method) {
-  if (method == "exhaustive" || method == "exact") return;
-  constexpr std::array<const char*, 2> planned = {"certified", "cells"};
-  if (std::find(planned.begin(), planned.end(), method) != planned.end()) {
+  if (method == "exhaustive" || method == "exact" || method == "cells") return;
+  if (method == "certified") {
     throw UsageError("--method " + method + " is not built yet; there is: " + kBuiltMethods);
   }
   throw UsageError("--method: unknown method '" + method + "'; there is: " + kBuiltMethods);
@@ -39,6 +38,19 @@ ScanLocalizer makeExhaustive(PolygonMap map, const SearchOptions& search) {
   params.threads = static_cast<int>(search.threads);
   // Shared, for a std::function must be copyable.
   const auto localizer = std::make_shared<const GlobalLocalizer>(std::move(map), params);
+  return {localizer->map(),
+          [localizer](const RangeScan& scan, const PosePrior& prior) {
+            return localizer->localize(scan, prior);
+          },
+          localizer->indexBytes()};
+}
+
+ScanLocalizer makeCells(PolygonMap map, const SearchOptions& search) {
+  CellLocalizerParams params;
+  params.max_hypotheses = search.max_hypotheses;
+  params.threads = static_cast<int>(search.threads);
+  params.range = search.cell_range;
+  const auto localizer = std::make_shared<const CellLocalizer>(std::move(map), params);
   return {localizer->map(),
           [localizer](const RangeScan& scan, const PosePrior& prior) {
             return localizer->localize(scan, prior);
@@ -81,10 +93,20 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
             checkMethod(method);
             search.method = method;
           },
-          "How to search: exhaustive [default], exact (a polygon seen without any noise); "
-          "certified "
-          "and cells are not built yet")
+          "How to search: exhaustive [default], cells (the nearest visibility cells), exact (a "
+          "polygon seen without any noise); certified is not built yet")
       ->type_name("NAME");
+  addNumber(
+      options, "--range", [&search](double range) { search.cell_range = range; },
+      {0.0, std::numeric_limits<double>::max(), true},
+      "Range of the visibility cells of --method cells, m [default: the greatest that the budget "
+      "of cells allows]")
+      ->type_name("M");
+  options.parse_complete_callback([&search] {
+    if (search.cell_range && search.method != "cells") {
+      throw UsageError("--range is that of visibility cells: it needs --method cells");
+    }
+  });
   addCount(
       options, "--max-hypotheses", search.max_hypotheses, 1, kMostHypotheses,
       "At most so many hypotheses a scan [default: " + std::to_string(search.max_hypotheses) + "]")
@@ -96,6 +118,7 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
 }
 
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search) {
+  if (search.method == "cells") return makeCells(std::move(map), search);
   return search.method == "exact" ? makeExact(map, search) : makeExhaustive(std::move(map), search);
 }
 

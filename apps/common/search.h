@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,13 +20,15 @@ struct SearchOptions {
   std::string map;
   std::string scans;
   std::string method = "exhaustive";
+  std::optional<double> cell_range;  ///< of --method cells [m]
   std::uint64_t max_hypotheses = 20;
   /// Threads for the index, and for scans at once; 0 (not given): all cores for the index, and one
   /// scan after the other, so that the times of a scan mean something.
   std::uint64_t threads = 0;
 };
 
-/// Adds --map, --scans, --method, --max-hypotheses and --threads.
+/// Adds --map, --scans, --method, --range, --max-hypotheses and --threads.
+/// --range with another method than cells is a usage error.
 void addSearchOptions(CLI::App& options, SearchOptions& search);
 
 /// What a method is to the programs: a map made ready, and one scan in, all poses out.
@@ -37,6 +40,7 @@ struct ScanLocalizer {
 };
 
 /// Prepares the search of `search.method` in a map.
+/// \throws CellBudgetError
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search);
 
 /// What the method searches for: the scans of a log or, for `exact`, the polygons of a WKT file

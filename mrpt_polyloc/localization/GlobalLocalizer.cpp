@@ -1,47 +1,16 @@
 #include <mrpt_polyloc/geometry/Triangulation.h>
-#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
-#include <mrpt_polyloc/localization/ScanCost.h>
 #include <mrpt_polyloc/localization/SignaturePyramid.h>
+#include <mrpt_polyloc/localization/Stopwatch.h>
+#include <mrpt_polyloc/localization/candidate_ranking.h>
 #include <mrpt_polyloc/localization/search_positions.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <utility>
+#include <vector>
 
 namespace mrpt_polyloc {
-namespace {
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Whether the prior allows a pose, or one that counts as the same hypothesis: refinement may lead
-/// away from where the search was allowed to look.
-bool isAllowed(const PosePrior& prior, const mrpt::math::TPose2D& pose_map_robot,
-               const HypothesisParams& params) {
-  if (prior.compass) {
-    const double off = angleBetween(pose_map_robot.phi, prior.compass->heading);
-    if (off > prior.compass->tolerance + params.merge_angle) return false;
-  }
-  if (prior.near) {
-    const double away =
-        std::hypot(pose_map_robot.x - prior.near->x, pose_map_robot.y - prior.near->y);
-    if (away > prior.near->radius + params.merge_distance) return false;
-  }
-  return true;
-}
-
-}  // namespace
 
 void GlobalLocalizerParams::check() const {
   requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e6);
@@ -64,12 +33,6 @@ struct GlobalLocalizer::Impl {
                 params.spacing, params.threads),
         build_seconds(watch.seconds()) {}
 
-  /// Candidates refined with some of the beams, the best of them with all, of these what the prior
-  /// allows; sorted by cost.
-  std::vector<RankedPose> refine(const std::vector<PoseCandidate>& candidates,
-                                 const RangeScan& scan, const PosePrior& prior,
-                                 const ScanCost& cost) const;
-
   Stopwatch watch;
   GlobalLocalizerParams params;
   PolygonMap map;
@@ -78,36 +41,6 @@ struct GlobalLocalizer::Impl {
   SignaturePyramid pyramid;
   double build_seconds;
 };
-
-std::vector<RankedPose> GlobalLocalizer::Impl::refine(const std::vector<PoseCandidate>& candidates,
-                                                      const RangeScan& scan, const PosePrior& prior,
-                                                      const ScanCost& cost) const {
-  // Enough beams to come near the optimum; all of them only where it may matter.
-  constexpr std::size_t kCoarseBeams = 90;
-  const PoseRefiner coarse(predictor, scan, params.refinement, kCoarseBeams);
-  const PoseRefiner fine(predictor, scan, params.refinement);
-  std::vector<RankedPose> poses;
-  poses.reserve(candidates.size());
-  for (const PoseCandidate& candidate : candidates) {
-    const RefinedPose refined = coarse.refine(candidate.pose_map_beams);
-    const auto pose_map_robot = scan.robotFromBeamFrame(refined.pose_map_beams);
-    if (!isAllowed(prior, pose_map_robot, params.hypotheses)) continue;
-    poses.push_back({refined, cost.mean(refined.pose_map_beams)});
-  }
-  poses = mergeNearPoses(std::move(poses), params.hypotheses);
-  // Rivals count even where they are not asked for: one hypothesis may be all that is returned.
-  constexpr std::size_t kLeastRivals = 20;
-  const std::size_t kept = std::max(params.max_hypotheses, kLeastRivals);
-  if (poses.size() > 2 * kept) poses.resize(2 * kept);
-  for (RankedPose& pose : poses) {
-    const RefinedPose refined = fine.refine(pose.refined.pose_map_beams);
-    const double refined_cost = cost.mean(refined.pose_map_beams);
-    if (refined_cost < pose.cost) pose = {refined, refined_cost};
-  }
-  poses = mergeNearPoses(std::move(poses), params.hypotheses);
-  if (poses.size() > kept) poses.resize(kept);
-  return poses;
-}
 
 GlobalLocalizer::GlobalLocalizer(PolygonMap map, GlobalLocalizerParams params) {
   params.check();
@@ -137,23 +70,20 @@ LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePr
   const SignatureQuery query(scan, params.signature, params.cost.none_share);
   const PyramidSearchResult found =
       searchPyramid(impl_->pyramid, query, prior, scan.sensor(), params.search);
-  result.statistics.evaluated = found.evaluated;
-  result.statistics.refined = found.candidates.size();
-  result.statistics.search_ms = 1e3 * search_watch.seconds();
+  const double search_ms = 1e3 * search_watch.seconds();
 
-  const Stopwatch refinement_watch;
-  const ScanCost cost(impl_->predictor, scan, params.cost);
-  std::vector<RankedPose> poses = impl_->refine(found.candidates, scan, prior, cost);
-  if (poses.empty() || poses.front().cost > params.hypotheses.no_match_cost) {
-    result.status = LocalizationStatus::no_match;
-  } else {
-    result.status = isUnique(poses, cost, params.hypotheses) ? LocalizationStatus::unique
-                                                             : LocalizationStatus::ambiguous;
-    if (poses.size() > params.max_hypotheses) poses.resize(params.max_hypotheses);
-    result.hypotheses = toHypotheses(poses, scan, params.hypotheses);
+  std::vector<mrpt::math::TPose2D> candidates;
+  candidates.reserve(found.candidates.size());
+  for (const PoseCandidate& candidate : found.candidates) {
+    candidates.push_back(candidate.pose_map_beams);
   }
-  result.statistics.refinement_ms = 1e3 * refinement_watch.seconds();
-  return result;
+  LocalizationResult ranked =
+      rankCandidates(candidates, scan, prior, impl_->predictor,
+                     {params.max_hypotheses, params.cost, params.refinement, params.hypotheses});
+  ranked.statistics.positions = result.statistics.positions;
+  ranked.statistics.evaluated = found.evaluated;
+  ranked.statistics.search_ms = search_ms;
+  return ranked;
 }
 
 }  // namespace mrpt_polyloc

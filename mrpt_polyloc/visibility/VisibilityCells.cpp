@@ -53,14 +53,17 @@ Edges edgesOf(const Triangulation& t, bool boundary) {
   return edges;
 }
 
-CellEstimate estimateOf(const Triangulation& t, const CriticalSegments& critical, double range) {
-  CellEstimate estimate;
-  estimate.windows = critical.segments.size();
-  estimate.crossings = countCrossings(critical.segments, t.vertices());
+/// Counts no further than to `enough` cells.
+CellEstimate estimateOf(const Triangulation& t, const CriticalSegments& critical, double range,
+                        std::size_t enough = std::numeric_limits<std::size_t>::max()) {
+  std::vector<CriticalSegment> all = critical.segments;
   if (std::isfinite(range)) {
-    // Dividing edges cross segments too; seldom more than there are such edges per triangle.
-    estimate.windows += edgesOf(t, false).size();
+    for (const auto& [from, to] : edgesOf(t, false))
+      all.push_back({from, from, to, to, false, 0, 0});
   }
+  CellEstimate estimate;
+  estimate.windows = all.size();
+  if (estimate.cells() < enough) estimate.crossings = countCrossings(all, t.vertices(), enough);
   return estimate;
 }
 
@@ -88,6 +91,26 @@ CellEstimate VisibilityCells::estimate(const PolygonMap& map, double range) {
   const Triangulation triangulation(withoutWallsBeyond(map));
   return estimateOf(triangulation,
                     mrpt_polyloc::criticalSegments(triangulation, checkedRange(range)), range);
+}
+
+double VisibilityCells::greatestRange(const PolygonMap& map, std::size_t max_cells) {
+  const Triangulation triangulation(withoutWallsBeyond(map));
+  const BoundingBox& box = triangulation.box();
+  const double diagonal = std::hypot(box.max.x - box.min.x, box.max.y - box.min.y);
+  // Upwards, so that no count is much longer than the budget is high.
+  double greatest = 0.0;
+  for (int step = 0;; ++step) {
+    const double limit = std::pow(2.0, 0.5 * step);
+    const double range = limit < diagonal ? limit : kUnlimitedRange;
+    const CellEstimate estimate = estimateOf(
+        triangulation, mrpt_polyloc::criticalSegments(triangulation, range), range, max_cells + 1);
+    if (estimate.cells() > max_cells) {
+      if (step == 0) throw CellBudgetError(VisibilityCells::estimate(map, range), max_cells);
+      return greatest;
+    }
+    greatest = range;
+    if (std::isinf(range)) return greatest;
+  }
 }
 
 VisibilityCells::VisibilityCells(const PolygonMap& map, const VisibilityCellsParams& params)
@@ -198,7 +221,9 @@ void VisibilityCells::buildBuckets() {
   bucket_columns_ = static_cast<std::size_t>(width / bucket_size_) + 1;
   bucket_rows_ = static_cast<std::size_t>(height / bucket_size_) + 1;
   first_in_bucket_.assign(bucket_columns_ * bucket_rows_ + 1, 0);
+  // A cell rounded to nothing holds no point, but its edges seem to hold all those on their line.
   for (std::size_t cell = 0; cell < size(); ++cell) {
+    if (area(cell) <= 0.0) continue;
     forEachBucket(cell, [this](std::size_t bucket) { ++first_in_bucket_[bucket + 1]; });
   }
   for (std::size_t b = 1; b < first_in_bucket_.size(); ++b) {
@@ -207,6 +232,7 @@ void VisibilityCells::buildBuckets() {
   bucket_cells_.resize(first_in_bucket_.back());
   std::vector<std::uint32_t> next(first_in_bucket_.begin(), first_in_bucket_.end() - 1);
   for (std::size_t cell = 0; cell < size(); ++cell) {
+    if (area(cell) <= 0.0) continue;
     forEachBucket(cell, [&](std::size_t bucket) {
       bucket_cells_[next[bucket]++] = static_cast<std::uint32_t>(cell);
     });

@@ -12,10 +12,9 @@ namespace mrpt_polyloc {
 
 /// What a decomposition would take, found without building it.
 struct CellEstimate {
-  std::size_t windows = 0;    ///< critical segments
+  std::size_t windows = 0;    ///< critical segments; in a limited range edges that divide, too
   std::size_t crossings = 0;  ///< between them, counted pair by pair in floating point
-  /// Upper bound of the cells (fewer where several segments cross in one point); with a limited
-  /// range an estimate only, as crossings with the edges that divide are not counted.
+  /// Upper bound of the cells (fewer where several segments cross in one point), up to rounding.
   std::size_t cells() const { return crossings + windows + 1; }
   double megabytes() const;  ///< while it is built, from kBytesPerCell
 };
@@ -55,6 +54,11 @@ class VisibilityCells {
 
   /// The count alone.
   static CellEstimate estimate(const PolygonMap& map, double range = kUnlimitedRange);
+
+  /// The greatest of the ranges 1, 2^(1/2), 2, ... m and unlimited (from the map's diagonal on) in
+  /// which there are at most `max_cells` cells by estimate.
+  /// \throws CellBudgetError if there are more in any of them, InvalidMapError
+  static double greatestRange(const PolygonMap& map, std::size_t max_cells);
 
   /// A vertex that comes into sight or is lost when an edge of a cell is crossed.
   struct Change {

@@ -97,9 +97,11 @@ BadUsage simulation(const char* name, std::vector<std::string> more, const char*
 
 INSTANTIATE_TEST_SUITE_P(
     Map, UsageErrors,
-    testing::Values(BadUsage{"map_two_inputs", "polyloc-map", {"a.wkt", "b.wkt"}, "b.wkt"},
-                    BadUsage{"map_empty_input", "polyloc-map", {""}, "empty"},
-                    BadUsage{"map_output_without_name", "polyloc-map", {"a.wkt", "-o"}, "-o"}),
+    testing::Values(
+        BadUsage{"map_two_inputs", "polyloc-map", {"a.wkt", "b.wkt"}, "b.wkt"},
+        BadUsage{"map_range_alone", "polyloc-map", {"a.wkt", "--range", "5"}, "requires --cells"},
+        BadUsage{"map_empty_input", "polyloc-map", {""}, "empty"},
+        BadUsage{"map_output_without_name", "polyloc-map", {"a.wkt", "-o"}, "-o"}),
     [](const auto& tested) { return tested.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -107,7 +109,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadUsage{"no_scans", "polyloc-localize", {"--map", "a.wkt"}, "--scans is required"},
         localize("certified", {"--method", "certified"}, "--method certified is not built yet"),
-        localize("cells", {"--method", "cells"}, "--method cells is not built yet"),
+        localize("range_alone", {"--range", "5"}, "it needs --method cells"),
+        localize("range_zero", {"--method", "cells", "--range", "0"}, "'0'"),
         localize("unknown_method", {"--method", "best"}, "unknown method 'best'"),
         localize("index", {"--index", "a.idx"}, "--index is not built yet"),
         localize("time_budget", {"--time-budget", "50"}, "--time-budget needs --method certified"),
