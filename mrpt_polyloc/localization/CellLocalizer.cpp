@@ -49,6 +49,8 @@ void CellLocalizerParams::check() const {
   requireInRange("spacing", spacing, 0.01, 100.0);
   view.check();
   requireInRange("max_candidates", static_cast<double>(max_candidates), 1.0, 1e6);
+  requireInRange("distance_share", distance_share, 1.0, 1e6);
+  requireNotNegative("distance_margin", distance_margin);
   cost.check();
   refinement.check();
   hypotheses.check();
@@ -128,8 +130,13 @@ LocalizationResult CellLocalizer::localize(const RangeScan& scan, const PosePrio
   }
   std::vector<TPose2D> candidates;
   DifferentPoses different;
+  double farthest = std::numeric_limits<double>::infinity();
   result.statistics.evaluated =
       impl_->views->visitNearest(query, [&](const ViewIndex::Neighbor& neighbor) {
+        if (candidates.empty()) {
+          farthest = params.distance_share * neighbor.distance + params.distance_margin;
+        }
+        if (neighbor.distance > farthest) return false;
         const TPoint2D& p = impl_->viewpoints[neighbor.view];
         TPose2D pose(p.x, p.y, neighbor.rotation);
         pose.normalizePhi();

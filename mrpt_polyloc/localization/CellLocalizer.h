@@ -20,9 +20,9 @@ struct CellLocalizerParams {
   std::size_t max_hypotheses = 20;  ///< at most so many are returned
   int threads = 0;                  ///< for the views of the cells; 0: all cores
   /// Range of the visibility cells [m], see VisibilityCellsParams. Not given: unlimited if the
-  /// cells fit the budget, else the greatest of 1, 2^(1/2), 2, ... m at which they do.
+  /// cells fit the budget, else the greatest of 0.0625 m times powers of 2^(1/2) at which they do.
   std::optional<double> range;
-  std::size_t max_cells = 200'000;  ///< the budget; a cell takes about 2 KB, 2.5 while it is built
+  std::size_t max_cells = 200'000;  ///< the budget; a cell takes about 1.8 KB
   /// Of a cell wider than this, one view says too little: more are taken on a lattice of this
   /// spacing [m]. Refinement finds the optimum from half of it.
   double spacing = 0.5;
@@ -30,7 +30,11 @@ struct CellLocalizerParams {
   /// The nearest cells are taken until they make so many different poses (one per 0.3 m and 5
   /// degrees): neighbouring cells tell the same.
   std::size_t max_candidates = 400;
-  std::size_t least_hits = 15;  ///< scans with fewer hits are not searched for
+  /// ... or are farther than this share of the nearest one's distance plus the margin: a view from
+  /// half the spacing away may differ much, by what shows behind corners.
+  double distance_share = 3.0;
+  double distance_margin = 1.0;  ///< [m rad^(1/2)]; 0.4 m all around
+  std::size_t least_hits = 15;   ///< scans with fewer hits are not searched for
   RobustCostParams cost;
   PoseRefinerParams refinement;
   HypothesisParams hypotheses;

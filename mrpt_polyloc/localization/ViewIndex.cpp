@@ -17,11 +17,13 @@ namespace {
 
 constexpr std::size_t kLanes = 16;
 constexpr std::size_t kNumbers = ViewIndex::kOrder + 2;  // of a feature
+constexpr float kMostFloat = std::numeric_limits<float>::max();
 
-/// Squared distances of a feature from `blocks` blocks of features.
+/// Distances of a feature from `blocks` blocks of features, less `slack`, in [0, the greatest
+/// float].
 POLYLOC_HOT_LOOP
-void squaredDistances(const float* features, const float* query, std::size_t blocks,
-                      float* squares) {
+void boundsOf(const float* features, const float* query, std::size_t blocks, float slack,
+              float* bounds) {
   for (std::size_t b = 0; b < blocks; ++b) {
     std::array<float, kLanes> sums{};
     for (std::size_t i = 0; i < kNumbers; ++i) {
@@ -30,7 +32,53 @@ void squaredDistances(const float* features, const float* query, std::size_t blo
         sums[lane] += e * e;
       }
     }
-    for (std::size_t lane = 0; lane < kLanes; ++lane) squares[b * kLanes + lane] = sums[lane];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const float bound = std::sqrt(sums[lane]) - slack;
+      const float above = bound > 0.0F ? bound : 0.0F;
+      bounds[b * kLanes + lane] = above < kMostFloat ? above : kMostFloat;
+    }
+  }
+}
+
+/// The least of n numbers, infinity of none.
+POLYLOC_HOT_LOOP
+float leastOf(const float* values, std::size_t n) {
+  std::array<float, kLanes> lanes;
+  lanes.fill(std::numeric_limits<float>::infinity());
+  std::size_t i = 0;
+  for (; i + kLanes <= n; i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      lanes[lane] = values[i + lane] < lanes[lane] ? values[i + lane] : lanes[lane];
+    }
+  }
+  for (; i < n; ++i) lanes[0] = std::min(lanes[0], values[i]);
+  return *std::min_element(lanes.begin(), lanes.end());
+}
+
+/// A view whose distance is bounded but not known yet.
+struct Bound {
+  float distance;
+  std::uint32_t view;
+  bool operator<(const Bound& other) const {
+    return distance < other.distance || (distance == other.distance && view < other.view);
+  }
+};
+
+/// Appends the bounds in [from, to), few among many: most blocks hold none.
+POLYLOC_HOT_LOOP
+void collect(const float* bounds, std::size_t n, float from, float to, std::vector<Bound>& found) {
+  constexpr std::size_t kBlock = 64;
+  for (std::size_t i = 0; i < n; i += kBlock) {
+    const std::size_t stop = std::min(i + kBlock, n);
+    unsigned any = 0;
+    for (std::size_t j = i; j < stop; ++j) {
+      any |= static_cast<unsigned>(bounds[j] >= from) & static_cast<unsigned>(bounds[j] < to);
+    }
+    for (std::size_t j = i; any != 0 && j < stop; ++j) {
+      if (bounds[j] >= from && bounds[j] < to) {
+        found.push_back({bounds[j], static_cast<std::uint32_t>(j)});
+      }
+    }
   }
 }
 
@@ -45,15 +93,6 @@ SampledPolarFunction cutOff(const SampledPolarFunction& view, double reach) {
   return SampledPolarFunction(std::move(samples));
 }
 
-/// A view whose distance is bounded but not known yet.
-struct Bound {
-  float distance;
-  std::uint32_t view;
-  bool operator<(const Bound& other) const {
-    return distance < other.distance || (distance == other.distance && view < other.view);
-  }
-};
-
 struct Farther {
   bool operator()(const ViewIndex::Neighbor& a, const ViewIndex::Neighbor& b) const {
     return a.distance > b.distance || (a.distance == b.distance && a.view > b.view);
@@ -64,8 +103,7 @@ struct Farther {
 class AscendingBounds {
  public:
   explicit AscendingBounds(std::vector<float> bounds) : bounds_(std::move(bounds)) {
-    for (const float bound : bounds_) least_ = std::min(least_, bound);
-    if (!bounds_.empty()) fill(least_ * 1.1F + 1e-6F);
+    if (!bounds_.empty()) fill(leastOf(bounds_.data(), bounds_.size()) * 1.1F + 1e-6F);
   }
 
   /// The least bound left; infinite if there is none.
@@ -81,15 +119,11 @@ class AscendingBounds {
  private:
   static constexpr float kNever = std::numeric_limits<float>::infinity();
 
-  /// Takes all bounds below `end`.
+  /// Takes all bounds below `end`; in the end those of the greatest number too.
   void fill(float end) {
     sorted_.clear();
     next_ = 0;
-    for (std::size_t i = 0; i < bounds_.size(); ++i) {
-      if (bounds_[i] >= end_ && (bounds_[i] < end || std::isinf(end))) {
-        sorted_.push_back({bounds_[i], static_cast<std::uint32_t>(i)});
-      }
-    }
+    collect(bounds_.data(), bounds_.size(), end_, end, sorted_);
     std::sort(sorted_.begin(), sorted_.end());
     left_ -= sorted_.size();
     end_ = end;
@@ -99,7 +133,6 @@ class AscendingBounds {
   std::vector<Bound> sorted_;
   std::size_t next_ = 0;
   std::size_t left_ = bounds_.size();
-  float least_ = kNever;
   float end_ = 0.0F;
 };
 
@@ -130,7 +163,8 @@ std::vector<float> ViewIndex::lowerBounds(const Query& query) const {
   if (query.scan.isComplete() && query.rotations.isFullCircle() && std::isinf(query.reach)) {
     return fourierBounds(query.scan);
   }
-  // Bins of 16 degrees at k = 180: wide enough to be few, and narrow beside a partial view.
+  // Bins of 16 degrees at k = 180. Of 32 they would take four fifths of the time, and leave 20
+  // times as many views in doubt.
   constexpr std::size_t kBinWidth = 8;
   const BinMeansBound bound(query.scan, kBinWidth, query.rotations);
   std::vector<float> bounds(views_.size());
@@ -147,13 +181,10 @@ std::vector<float> ViewIndex::fourierBounds(const SampledPolarFunction& scan) co
                  [](double number) { return static_cast<float>(number); });
   const std::size_t blocks = features_.size() / (kLanes * kNumbers);
   std::vector<float> bounds(blocks * kLanes);
-  squaredDistances(features_.data(), query.data(), blocks, bounds.data());
-  bounds.resize(views_.size());
   const auto slack =
       static_cast<float>(kRounding * (greatest_norm_ + std::sqrt(scan.squaredNorm())));
-  for (float& bound : bounds) {
-    bound = std::clamp(std::sqrt(bound) - slack, 0.0F, std::numeric_limits<float>::max());
-  }
+  boundsOf(features_.data(), query.data(), blocks, slack, bounds.data());
+  bounds.resize(views_.size());
   return bounds;
 }
 

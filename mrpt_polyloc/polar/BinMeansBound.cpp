@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
 
 namespace mrpt_polyloc {
 namespace {
@@ -14,45 +16,56 @@ namespace {
 // Of a sum of squares in single precision, some 20 terms deep, and of what it is the difference of.
 constexpr double kRounding = 1e-5;
 
-/// The means of `width` (a power of two) neighbours from each of k samples on, by doubling; twice
-/// over, so that no index wraps. `means` has 2 k places.
+/// out_i = (in_i + in_{i + step}) / 2 for k samples, indices wrapped; `in` has place for k + step.
 POLYLOC_HOT_LOOP
-void slidingMeans(const float* samples, std::size_t k, float reach, std::size_t width,
-                  float* __restrict__ means) {
-  for (std::size_t i = 0; i < k; ++i) means[i] = samples[i] < reach ? samples[i] : reach;
-  for (std::size_t i = 0; i < k; ++i) means[k + i] = means[i];
-  // In place: what is added lies ahead. The tail wraps no more than once, as width <= k.
-  for (std::size_t step = 1; step < width; step *= 2) {
-    const float* const ahead = means + step;
-    for (std::size_t i = 0; i < k; ++i) means[i] = 0.5F * (means[i] + ahead[i]);
-    for (std::size_t i = 0; i < k; ++i) means[k + i] = means[i];
-  }
+void averagePairs(float* __restrict__ in, std::size_t k, std::size_t step,
+                  float* __restrict__ out) {
+  for (std::size_t i = 0; i < step; ++i) in[k + i] = in[i];
+  for (std::size_t i = 0; i < k; ++i) out[i] = 0.5F * (in[i] + in[i + step]);
 }
 
-/// The least over n rotations of the summed squared differences of the bins' means.
 POLYLOC_HOT_LOOP
-float leastSum(const float* __restrict__ means, std::size_t n, const std::uint32_t* starts,
-               const float* bin_means, std::size_t bins, float* __restrict__ sums) {
-  for (std::size_t s = 0; s < n; ++s) sums[s] = 0.0F;
-  for (std::size_t b = 0; b < bins; ++b) {
-    const float* const run = means + starts[b];
-    const float mean = bin_means[b];
-    for (std::size_t s = 0; s < n; ++s) {
-      const float e = run[s] - mean;
-      sums[s] += e * e;
-    }
+void cutOff(const float* __restrict__ samples, std::size_t k, float reach,
+            float* __restrict__ out) {
+  for (std::size_t i = 0; i < k; ++i) out[i] = samples[i] < reach ? samples[i] : reach;
+}
+
+/// The means of `width` (a power of two) neighbours from each of k samples on, by doubling; twice
+/// over, so that no index wraps. \returns 2 k floats, in one of the two buffers of that size
+const float* slidingMeans(const float* samples, std::size_t k, float reach, std::size_t width,
+                          float* buffer, float* other) {
+  cutOff(samples, k, reach, buffer);
+  for (std::size_t step = 1; step < width; step *= 2) {
+    averagePairs(buffer, k, step, other);
+    std::swap(buffer, other);
   }
-  constexpr std::size_t kLanes = 16;
-  std::array<float, kLanes> lanes;
-  lanes.fill(sums[0]);
-  std::size_t s = 0;
-  for (; s + kLanes <= n; s += kLanes) {
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      lanes[i] = sums[s + i] < lanes[i] ? sums[s + i] : lanes[i];
+  std::copy_n(buffer, k, buffer + k);
+  return buffer;
+}
+
+constexpr std::size_t kRun = 32;  // rotations whose sums are kept in registers
+
+/// The least over n rotations of the summed squared differences of the bins' means. Reads up to
+/// kRun - 1 places beyond the last rotation's.
+POLYLOC_HOT_LOOP
+float leastSum(const float* means, std::size_t n, const std::uint32_t* starts,
+               const float* bin_means, std::size_t bins) {
+  std::array<float, kRun> least;
+  least.fill(std::numeric_limits<float>::infinity());
+  for (std::size_t s = 0; s < n; s += kRun) {
+    std::array<float, kRun> sums{};
+    for (std::size_t b = 0; b < bins; ++b) {
+      const float* const run = means + starts[b] + s;
+      const float mean = bin_means[b];
+      for (std::size_t i = 0; i < kRun; ++i) {
+        const float e = run[i] - mean;
+        sums[i] += e * e;
+      }
     }
+    const std::size_t used = std::min(kRun, n - s);
+    for (std::size_t i = 0; i < used; ++i) least[i] = sums[i] < least[i] ? sums[i] : least[i];
   }
-  for (; s < n; ++s) lanes[0] = sums[s] < lanes[0] ? sums[s] : lanes[0];
-  return *std::min_element(lanes.begin(), lanes.end());
+  return *std::min_element(least.begin(), least.end());
 }
 
 }  // namespace
@@ -87,12 +100,12 @@ double BinMeansBound::operator()(const SampledPolarFunction& g, double reach) co
   if (!g.isComplete())
     throw InvalidParamsError("a view with unseen directions is not bounded by bin means");
   if (starts_.empty()) return 0.0;
-  thread_local std::vector<float> means, sums;
-  means.resize(2 * k_);
-  sums.resize(k_);
-  slidingMeans(g.samples().data(), k_, static_cast<float>(reach), width_, means.data());
-  const float least = leastSum(means.data(), rotations_.count, starts_.data(), means_.data(),
-                               starts_.size(), sums.data());
+  thread_local std::vector<float> memory;
+  memory.resize(4 * k_ + kRun);
+  const float* const means = slidingMeans(g.samples().data(), k_, static_cast<float>(reach), width_,
+                                          memory.data(), memory.data() + 2 * k_);
+  const float least =
+      leastSum(means, rotations_.count, starts_.data(), means_.data(), starts_.size());
   const double weight = kTwoPi * static_cast<double>(width_) / static_cast<double>(k_);
   const double slack = kRounding * (norm_ + std::sqrt(g.squaredNorm()));
   return std::max(0.0, std::sqrt(weight * static_cast<double>(least)) - slack);

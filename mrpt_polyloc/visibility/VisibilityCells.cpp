@@ -16,7 +16,10 @@ namespace {
 using Edges = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
 /// Memory while the arrangement is built: the peak measured for floors of 100,000 cells.
-constexpr double kBytesPerCell = 2500.0;
+constexpr double kBytesPerCell = 1750.0;
+
+/// The least range that greatestRange() tries [m]: below it next to nothing is told apart.
+constexpr double kLeastRange = 0.0625;
 
 /// About this many cells share a bucket of the point location grid.
 constexpr double kCellsPerBucket = 1.0;
@@ -100,7 +103,7 @@ double VisibilityCells::greatestRange(const PolygonMap& map, std::size_t max_cel
   // Upwards, so that no count is much longer than the budget is high.
   double greatest = 0.0;
   for (int step = 0;; ++step) {
-    const double limit = std::pow(2.0, 0.5 * step);
+    const double limit = kLeastRange * std::pow(2.0, 0.5 * step);
     const double range = limit < diagonal ? limit : kUnlimitedRange;
     const CellEstimate estimate = estimateOf(
         triangulation, mrpt_polyloc::criticalSegments(triangulation, range), range, max_cells + 1);

@@ -118,7 +118,7 @@ TEST(CellLocalizer, ViewsCoverEveryCell) {
   }
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (cells.area(c) > 1e-7) {
-      EXPECT_FALSE(in_cell[c].empty()) << c << " area " << cells.area(c) << " located in " << cells.locate(cells.representative(c));
+      EXPECT_FALSE(in_cell[c].empty()) << c << cells.locate(cells.representative(c));
     }
   }
 }
@@ -275,6 +275,8 @@ TEST(CellLocalizer, BadParamsAreNamed) {
   EXPECT_THAT(complaint([](auto& p) { p.spacing = 0.0; }), HasSubstr("spacing"));
   EXPECT_THAT(complaint([](auto& p) { p.view.samples = 7; }), HasSubstr("samples"));
   EXPECT_THAT(complaint([](auto& p) { p.max_candidates = 0; }), HasSubstr("max_candidates"));
+  EXPECT_THAT(complaint([](auto& p) { p.distance_share = 0.5; }), HasSubstr("distance_share"));
+  EXPECT_THAT(complaint([](auto& p) { p.distance_margin = -1; }), HasSubstr("distance_margin"));
   EXPECT_THAT(complaint([](auto& p) { p.max_hypotheses = 0; }), HasSubstr("max_hypotheses"));
   EXPECT_THAT(complaint([](auto& p) { p.threads = -1; }), HasSubstr("threads"));
   EXPECT_THROW(inAsymmetricRoom().localize(simulatedScan(asymmetricRoom(), {1, 1, 0}),
