@@ -5,6 +5,7 @@
 #include "map_input.h"
 #include "view_polygons.h"
 #include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/localization/CellLocalizer.h>
 #include <mrpt_polyloc/localization/ExactLocalizer.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/SkeletonLocalizer.h>
@@ -12,11 +13,10 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
-#include <array>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -29,20 +29,21 @@ namespace {
 constexpr std::uint64_t kMostThreads = 1024;
 constexpr std::uint64_t kMostHypotheses = 1'000'000;
 
-constexpr const char* kBuiltMethods = "certified, exhaustive, exact";
+constexpr const char* kMethods = "certified, exhaustive, cells, exact";
 
-/// \throws UsageError if the method is unknown or not built yet.
+/// \throws UsageError if the method is unknown.
 void checkMethod(const std::string& method) {
-  if (method == "certified" || method == "exhaustive" || method == "exact") return;
-  constexpr std::array<const char*, 1> planned = {"cells"};
-  if (std::find(planned.begin(), planned.end(), method) != planned.end()) {
-    throw UsageError("--method " + method + " is not built yet; there is: " + kBuiltMethods);
+  for (const char* known : {"certified", "exhaustive", "cells", "exact"}) {
+    if (method == known) return;
   }
-  throw UsageError("--method: unknown method '" + method + "'; there is: " + kBuiltMethods);
+  throw UsageError("--method: unknown method '" + method + "'; there is: " + kMethods);
 }
 
 /// \throws UsageError for options that do not go with the method.
 void checkTogether(const SearchOptions& search) {
+  if (search.cell_range && search.method != "cells") {
+    throw UsageError("--range is that of visibility cells: it needs --method cells");
+  }
   if (search.method == "certified") return;
   if (!search.index.empty()) throw UsageError("--index needs --method certified");
   if (search.time_budget_ms > 0.0) throw UsageError("--time-budget needs --method certified");
@@ -79,6 +80,19 @@ ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
   params.certified.time_budget_ms = search.time_budget_ms;
   // Shared, for a std::function must be copyable.
   const auto localizer = makeShared(std::move(map), search.index, params);
+  return {localizer->map(),
+          [localizer](const RangeScan& scan, const PosePrior& prior) {
+            return localizer->localize(scan, prior);
+          },
+          localizer->indexBytes()};
+}
+
+ScanLocalizer makeCells(PolygonMap map, const SearchOptions& search) {
+  CellLocalizerParams params;
+  params.max_hypotheses = search.max_hypotheses;
+  params.threads = static_cast<int>(search.threads);
+  params.range = search.cell_range;
+  const auto localizer = std::make_shared<const CellLocalizer>(std::move(map), params);
   return {localizer->map(),
           [localizer](const RangeScan& scan, const PosePrior& prior) {
             return localizer->localize(scan, prior);
@@ -129,9 +143,15 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
             checkMethod(method);
             search.method = method;
           },
-          "How to search: certified [default], exhaustive (a lattice of poses), exact (a polygon "
-          "seen without any noise); cells is not built yet")
+          "How to search: certified [default], exhaustive (a lattice of poses), cells (the nearest "
+          "visibility cells), exact (a polygon seen without any noise)")
       ->type_name("NAME");
+  addNumber(
+      options, "--range", [&search](double range) { search.cell_range = range; },
+      {0.0, std::numeric_limits<double>::max(), true},
+      "Range of the visibility cells of --method cells, m [default: the greatest that the budget "
+      "of cells allows]")
+      ->type_name("M");
   addCount(
       options, "--max-hypotheses", search.max_hypotheses, 1, kMostHypotheses,
       "At most so many hypotheses a scan [default: " + std::to_string(search.max_hypotheses) + "]")
@@ -153,6 +173,7 @@ void addCertifiedOptions(CLI::App& options, SearchOptions& search) {
 
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::size_t scans) {
   if (search.method == "exact") return makeExact(map, search, scans);
+  if (search.method == "cells") return makeCells(std::move(map), search);
   return makeGlobal(std::move(map), search);
 }
 

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,15 +20,17 @@ struct SearchOptions {
   std::string map;
   std::string scans;
   std::string method = "certified";
-  std::string index;            ///< file to keep the certified search's index in; empty: none
-  double time_budget_ms = 0.0;  ///< of the certified search; 0: none
+  std::optional<double> cell_range;  ///< of --method cells [m]
+  std::string index;                 ///< file to keep the certified search's index in; empty: none
+  double time_budget_ms = 0.0;       ///< of the certified search; 0: none
   std::uint64_t max_hypotheses = 20;
   /// Threads for the index, and for scans at once; 0 (not given): all cores for the index, and one
   /// scan after the other, so that the times of a scan mean something.
   std::uint64_t threads = 0;
 };
 
-/// Adds --map, --scans, --method, --max-hypotheses and --threads.
+/// Adds --map, --scans, --method, --range, --max-hypotheses and --threads.
+/// --range with another method than cells is a usage error.
 void addSearchOptions(CLI::App& options, SearchOptions& search);
 
 /// What a method is to the programs: a map made ready, and one scan in, all poses out.
@@ -43,7 +46,7 @@ void addCertifiedOptions(CLI::App& options, SearchOptions& search);
 
 /// Prepares the search of `search.method` in a map, for so many scans: for `exact` with the map's
 /// skeletons where that pays. Reads `search.index` if it is there, else writes it.
-/// \throws FormatError naming the index
+/// \throws FormatError naming the index; CellBudgetError
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::size_t scans);
 
 /// What the method searches for: the scans of a log or, for `exact`, the polygons of a WKT file

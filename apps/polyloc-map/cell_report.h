@@ -10,17 +10,18 @@
 
 namespace mrpt_polyloc::apps {
 
-/// The visibility cells of a map and what they took. \throws CellBudgetError
+/// The visibility cells of a map, in a range [m], and what they took. \throws CellBudgetError
 struct CellReport {
-  explicit CellReport(const PolygonMap& map) : CellReport(map, std::chrono::steady_clock::now()) {}
+  CellReport(const PolygonMap& map, double range)
+      : CellReport(map, range, std::chrono::steady_clock::now()) {}
 
   VisibilityCells cells;
   double build_s;  ///< wall time
 
  private:
   using Time = std::chrono::steady_clock::time_point;
-  CellReport(const PolygonMap& map, Time start)
-      : cells(map),
+  CellReport(const PolygonMap& map, double range, Time start)
+      : cells(map, {VisibilityCellsParams{}.max_cells, range}),
         build_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()) {}
 };
 

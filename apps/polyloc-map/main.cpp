@@ -13,6 +13,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ struct Options {
   std::string view;
   bool check = false;
   bool cells = false;
+  std::optional<double> range;  // of the cells [m]
   bool json = false;
 };
 
@@ -43,8 +45,15 @@ void addOptions(CLI::App& cli, Options& options) {
   addText(cli, "--svg", options.svg, "Draw the map")->type_name("PIC.svg");
   cli.add_flag("--check", options.check,
                "List the defects of the map; exit 1 if there is any, repaired or not");
-  cli.add_flag("--cells", options.cells,
-               "Statistics of the visibility cells; --svg draws them; exit 1 if they are too many");
+  CLI::Option* const cells = cli.add_flag(
+      "--cells", options.cells,
+      "Statistics of the visibility cells; --svg draws them; exit 1 if they are too many");
+  addNumber(
+      cli, "--range", [&options](double range) { options.range = range; },
+      {0.0, std::numeric_limits<double>::max(), true},
+      "Only vertices within this are told apart by cells, m [default: all]")
+      ->type_name("M")
+      ->needs(cells);
   cli.add_flag("--json", options.json, "Print the report as JSON");
 }
 
@@ -118,7 +127,7 @@ int convert(const Program& program, const Options& options) {
   requireWritable(options.svg);
   const RepairedMap loaded = load(program, options);
   std::optional<CellReport> cells;
-  if (options.cells) cells.emplace(loaded.map);
+  if (options.cells) cells.emplace(loaded.map, options.range.value_or(kUnlimitedRange));
   const CellReport* shown = cells ? &*cells : nullptr;
   writeOutputs(options, loaded.map, shown);
   report(options, loaded, shown);

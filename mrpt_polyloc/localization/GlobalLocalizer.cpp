@@ -1,5 +1,4 @@
 #include <mrpt_polyloc/geometry/Triangulation.h>
-#include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/BandQuery.h>
@@ -7,14 +6,13 @@
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/ScanCost.h>
 #include <mrpt_polyloc/localization/SignaturePyramid.h>
-#include <mrpt_polyloc/localization/assessment.h>
+#include <mrpt_polyloc/localization/Stopwatch.h>
+#include <mrpt_polyloc/localization/candidate_ranking.h>
 #include <mrpt_polyloc/localization/search_index_file.h>
 #include <mrpt_polyloc/localization/search_positions.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -23,32 +21,6 @@ namespace mrpt_polyloc {
 namespace {
 
 using mrpt::math::TPose2D;
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Whether the prior allows a pose, or one that counts as the same hypothesis: refinement may lead
-/// away from where the search was allowed to look.
-bool isAllowed(const PosePrior& prior, const mrpt::math::TPose2D& pose_map_robot,
-               const HypothesisParams& params) {
-  if (prior.compass) {
-    const double off = angleBetween(pose_map_robot.phi, prior.compass->heading);
-    if (off > prior.compass->tolerance + params.merge_angle) return false;
-  }
-  if (prior.near) {
-    const double away =
-        std::hypot(pose_map_robot.x - prior.near->x, pose_map_robot.y - prior.near->y);
-    if (away > prior.near->radius + params.merge_distance) return false;
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -97,11 +69,6 @@ struct GlobalLocalizer::Impl {
                               LocalizationResult& result) const;
   std::vector<TPose2D> searchCertified(const RangeScan& scan, const PosePrior& prior,
                                        LocalizationResult& result) const;
-
-  /// Candidates refined with some of the beams, the best of them with all, of these what the prior
-  /// allows; sorted by cost.
-  std::vector<RankedPose> refine(const std::vector<TPose2D>& candidates, const RangeScan& scan,
-                                 const PosePrior& prior, const ScanCost& cost) const;
 
   Stopwatch watch;
   GlobalLocalizerParams params;
@@ -158,36 +125,6 @@ std::vector<TPose2D> GlobalLocalizer::Impl::searchCertified(const RangeScan& sca
   return poses;
 }
 
-std::vector<RankedPose> GlobalLocalizer::Impl::refine(const std::vector<TPose2D>& candidates,
-                                                      const RangeScan& scan, const PosePrior& prior,
-                                                      const ScanCost& cost) const {
-  // Enough beams to come near the optimum; all of them only where it may matter.
-  constexpr std::size_t kCoarseBeams = 90;
-  const PoseRefiner coarse(predictor, scan, params.refinement, kCoarseBeams);
-  const PoseRefiner fine(predictor, scan, params.refinement);
-  std::vector<RankedPose> poses;
-  poses.reserve(candidates.size());
-  for (const TPose2D& candidate : candidates) {
-    const RefinedPose refined = coarse.refine(candidate);
-    const auto pose_map_robot = scan.robotFromBeamFrame(refined.pose_map_beams);
-    if (!isAllowed(prior, pose_map_robot, params.hypotheses)) continue;
-    poses.push_back({refined, cost.mean(refined.pose_map_beams)});
-  }
-  poses = mergeNearPoses(std::move(poses), params.hypotheses);
-  // Rivals count even where they are not asked for: one hypothesis may be all that is returned.
-  constexpr std::size_t kLeastRivals = 20;
-  const std::size_t kept = std::max(params.max_hypotheses, kLeastRivals);
-  if (poses.size() > 2 * kept) poses.resize(2 * kept);
-  for (RankedPose& pose : poses) {
-    const RefinedPose refined = fine.refine(pose.refined.pose_map_beams);
-    const double refined_cost = cost.mean(refined.pose_map_beams);
-    if (refined_cost < pose.cost) pose = {refined, refined_cost};
-  }
-  poses = mergeNearPoses(std::move(poses), params.hypotheses);
-  if (poses.size() > kept) poses.resize(kept);
-  return poses;
-}
-
 GlobalLocalizer::GlobalLocalizer(PolygonMap map, GlobalLocalizerParams params) {
   params.check();
   impl_ = std::make_unique<Impl>(std::move(map), params);
@@ -224,19 +161,20 @@ double GlobalLocalizer::indexBuildSeconds() const {
 LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePrior& prior) const {
   prior.check();
   const GlobalLocalizerParams& params = impl_->params;
-  LocalizationResult result;
-  if (scan.hitCount() < params.least_hits) return result;
+  LocalizationResult found;
+  if (scan.hitCount() < params.least_hits) return found;
 
-  const Stopwatch search_watch;
-  const std::vector<TPose2D> candidates = impl_->search(scan, prior, result);
-  result.statistics.refined = candidates.size();
-  result.statistics.search_ms = 1e3 * search_watch.seconds();
-
-  const Stopwatch refinement_watch;
-  const ScanCost cost(impl_->predictor, scan, params.cost);
-  const std::vector<RankedPose> poses = impl_->refine(candidates, scan, prior, cost);
-  assess(poses, scan, cost, params.hypotheses, params.max_hypotheses, result);
-  result.statistics.refinement_ms = 1e3 * refinement_watch.seconds();
+  const Stopwatch watch;
+  const std::vector<TPose2D> candidates = impl_->search(scan, prior, found);
+  const double search_ms = 1e3 * watch.seconds();
+  LocalizationResult result =
+      rankCandidates(candidates, scan, prior, impl_->predictor,
+                     {params.max_hypotheses, params.cost, params.refinement, params.hypotheses});
+  result.certificate = found.certificate;
+  result.regions = std::move(found.regions);
+  result.statistics.positions = found.statistics.positions;
+  result.statistics.evaluated = found.statistics.evaluated;
+  result.statistics.search_ms = search_ms;
   return result;
 }
 

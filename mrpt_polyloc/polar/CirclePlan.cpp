@@ -61,6 +61,15 @@ void multiplyConjugate(const float* a, const float* b, float* product, std::size
   }
 }
 
+/// product_j += conj(a_j) b_j.
+POLYLOC_HOT_LOOP
+void addConjugateProduct(const float* a, const float* b, float* product, std::size_t n) {
+  for (std::size_t j = 0; j < 2 * n; j += 2) {
+    product[j] += a[j] * b[j] + a[j + 1] * b[j + 1];
+    product[j + 1] += a[j] * b[j + 1] - a[j + 1] * b[j];
+  }
+}
+
 // FFTW's planner is not thread-safe, its execution is.
 std::mutex& plannerMutex() {
   static std::mutex mutex;
@@ -114,26 +123,48 @@ const CirclePlan& CirclePlan::forSamples(std::size_t k) {
 }
 
 std::vector<std::complex<float>> CirclePlan::spectrum(const float* samples) const {
+  std::vector<std::complex<float>> result(spectrumSize());
+  spectrum(samples, result.data());
+  return result;
+}
+
+void CirclePlan::spectrum(const float* samples, std::complex<float>* spectrum) const {
   Buffers& buffers = threadBuffers(size());
   std::copy_n(samples, size(), buffers.samples.get());
   fftwf_execute_dft_r2c(transforms_->forward, buffers.samples.get(),
                         asFftw(buffers.spectrum.get()));
   const auto scale = static_cast<float>(1.0 / std::sqrt(static_cast<double>(size())));
-  std::vector<std::complex<float>> result(spectrumSize());
   const float* const parts = buffers.spectrum.get();
-  for (std::size_t j = 0; j < result.size(); ++j)
-    result[j] = {scale * parts[2 * j], scale * parts[2 * j + 1]};
-  return result;
+  for (std::size_t j = 0; j < spectrumSize(); ++j)
+    spectrum[j] = {scale * parts[2 * j], scale * parts[2 * j + 1]};
+}
+
+template <class Fill>
+const float* CirclePlan::transformedBack(Fill fill) const {
+  Buffers& buffers = threadBuffers(size());
+  float* const product = buffers.spectrum.get();
+  fill(product);
+  fftwf_execute_dft_c2r(transforms_->backward, asFftw(product), buffers.samples.get());
+  return buffers.samples.get();
 }
 
 const float* CirclePlan::correlation(const std::complex<float>* f,
                                      const std::complex<float>* g) const {
-  Buffers& buffers = threadBuffers(size());
-  float* const product = buffers.spectrum.get();
-  multiplyConjugate(reinterpret_cast<const float*>(f), reinterpret_cast<const float*>(g), product,
-                    spectrumSize());
-  fftwf_execute_dft_c2r(transforms_->backward, asFftw(product), buffers.samples.get());
-  return buffers.samples.get();
+  return transformedBack([&](float* product) {
+    multiplyConjugate(reinterpret_cast<const float*>(f), reinterpret_cast<const float*>(g), product,
+                      spectrumSize());
+  });
+}
+
+const float* CirclePlan::correlation(const std::complex<float>* f, const std::complex<float>* g,
+                                     const std::complex<float>* f2,
+                                     const std::complex<float>* g2) const {
+  return transformedBack([&](float* product) {
+    multiplyConjugate(reinterpret_cast<const float*>(f), reinterpret_cast<const float*>(g), product,
+                      spectrumSize());
+    addConjugateProduct(reinterpret_cast<const float*>(f2), reinterpret_cast<const float*>(g2),
+                        product, spectrumSize());
+  });
 }
 
 double CirclePlan::correlationError() const {

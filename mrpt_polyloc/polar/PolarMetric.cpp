@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -94,6 +95,23 @@ double toDistance(double squared_difference, std::size_t k) {
   return std::sqrt(kTwoPi / static_cast<double>(k) * std::max(squared_difference, 0.0));
 }
 
+/// -1/2 (g_i^2 - mean_square) for n samples. \returns the sum of their squares
+POLYLOC_HOT_LOOP
+double halvedSquares(const float* g, std::size_t n, double mean_square, float* squares) {
+  std::array<double, kLanes> lanes{};
+  std::size_t i = 0;
+  const auto halved = [&](std::size_t j) {
+    const double value = static_cast<double>(g[j]);
+    const double square = -0.5 * (value * value - mean_square);
+    squares[j] = static_cast<float>(square);
+    return square * square;
+  };
+  for (; i + kLanes <= n; i += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) lanes[lane] += halved(i + lane);
+  for (; i < n; ++i) lanes[0] += halved(i);
+  return total(lanes);
+}
+
 /// For every rotation s: constant - Sum_i (f_{i-s} - g_i)^2 / 2, and how far it may be off by
 /// rounding. The values belong to the calling thread, until it correlates again.
 struct Gains {
@@ -106,46 +124,24 @@ Gains gainsOf(const SampledPolarFunction& f, const SampledPolarFunction& g) {
   const CirclePlan& plan = f.plan();
   Gains gains{};
   gains.error = plan.correlationError() * f.spectrumNorm() * g.spectrumNorm();
-  gains.values = plan.correlation(f.spectrum().data(), g.spectrum().data());
-  if (f.isComplete()) return gains;
+  if (f.isComplete()) {
+    gains.values = plan.correlation(f.spectrum().data(), g.spectrum().data());
+    return gains;
+  }
 
   // Which samples of g are compared depends on the rotation, and so does the sum of their squares;
   // the constant part of the squares does not matter and would only cost digits.
-  thread_local std::vector<float> sums;
-  sums.assign(gains.values, gains.values + k);
-  std::vector<float> squares(k);
-  const double mean_square = g.squaredNorm() / kTwoPi;
-  double norm = 0.0;
-  for (std::size_t i = 0; i < k; ++i) {
-    const double value = static_cast<double>(g.samples()[i]);
-    const double square = value * value - mean_square;
-    squares[i] = static_cast<float>(square);
-    norm += square * square;
-  }
-  const auto spectrum = plan.spectrum(squares.data());
-  const float* const seen_squares = plan.correlation(f.maskSpectrum().data(), spectrum.data());
-  for (std::size_t s = 0; s < k; ++s) sums[s] -= 0.5F * seen_squares[s];
-  gains.values = sums.data();
-  gains.error +=
-      0.5 * plan.correlationError() * std::sqrt(norm * static_cast<double>(f.validCount()));
+  thread_local std::vector<float> squares;
+  thread_local std::vector<std::complex<float>> spectrum;
+  squares.resize(k);
+  spectrum.resize(plan.spectrumSize());
+  const double norm =
+      halvedSquares(g.samples().data(), k, g.squaredNorm() / kTwoPi, squares.data());
+  plan.spectrum(squares.data(), spectrum.data());
+  gains.values = plan.correlation(f.spectrum().data(), g.spectrum().data(), f.maskSpectrum().data(),
+                                  spectrum.data());
+  gains.error += plan.correlationError() * std::sqrt(norm * static_cast<double>(f.validCount()));
   return gains;
-}
-
-/// Rotations first, first + 1, ..., of k.
-struct IndexRange {
-  std::size_t first, count;
-};
-
-IndexRange indicesIn(const RotationRange& range, std::size_t k) {
-  if (range.isFullCircle()) return {0, k};
-  const double per_radian = static_cast<double>(k) / kTwoPi;
-  const double center = wrapToTwoPi(range.center) * per_radian;
-  const double reach = range.tolerance * per_radian + 1e-9;  // bounds meant to be on the grid are
-  const double first = std::ceil(center - reach), last = std::floor(center + reach);
-  const auto size = static_cast<double>(k);
-  if (last < first) return {static_cast<std::size_t>(std::llround(center)) % k, 1};
-  return {static_cast<std::size_t>(first < 0.0 ? first + size : first) % k,
-          std::min(k, static_cast<std::size_t>(last - first) + 1)};
 }
 
 /// Calls use(s) for all rotations of a range whose gain, of k, is within `margin` of the best.

@@ -2,6 +2,8 @@
 
 #include <mrpt_polyloc/geometry/angles.h>
 
+#include <cstddef>
+
 namespace mrpt_polyloc {
 
 /// Which rotations to search: those within `tolerance` of `center`, all of them by default. What a
@@ -15,5 +17,14 @@ struct RotationRange {
   /// \throws InvalidParamsError naming the bad field.
   void check() const;
 };
+
+/// Rotations first, first + 1, ... (mod k), `count` of them, by multiples of 2 pi / k.
+struct IndexRange {
+  std::size_t first, count;
+};
+
+/// The multiples of 2 pi / k in a range; the nearest one to its centre if there is none.
+/// \throws InvalidParamsError if the range is bad.
+IndexRange indicesIn(const RotationRange& range, std::size_t k);
 
 }  // namespace mrpt_polyloc

@@ -16,7 +16,10 @@ namespace {
 using Edges = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
 /// Memory while the arrangement is built: the peak measured for floors of 100,000 cells.
-constexpr double kBytesPerCell = 2500.0;
+constexpr double kBytesPerCell = 1750.0;
+
+/// The least range that greatestRange() tries [m]: below it next to nothing is told apart.
+constexpr double kLeastRange = 0.0625;
 
 /// About this many cells share a bucket of the point location grid.
 constexpr double kCellsPerBucket = 1.0;
@@ -53,12 +56,16 @@ Edges edgesOf(const Triangulation& t, bool boundary) {
   return edges;
 }
 
-CellEstimate estimateOf(const Triangulation& t, const CriticalSegments& critical, double range) {
+/// Counts no further than to `enough` cells.
+CellEstimate estimateOf(const Triangulation& t, const CriticalSegments& critical, double range,
+                        std::size_t enough = std::numeric_limits<std::size_t>::max()) {
   const Edges dividers = std::isfinite(range) ? edgesOf(t, false) : Edges{};
   CellEstimate estimate;
   estimate.windows = critical.segments.size();
   estimate.dividers = dividers.size();
-  estimate.crossings = countCrossings(critical.segments, dividers, t.vertices());
+  if (estimate.cells() < enough) {
+    estimate.crossings = countCrossings(critical.segments, dividers, t.vertices(), enough);
+  }
   return estimate;
 }
 
@@ -95,6 +102,26 @@ CellEstimate VisibilityCells::estimate(const PolygonMap& map, double range) {
   const Triangulation triangulation(withoutWallsBeyond(map));
   return estimateOf(triangulation,
                     mrpt_polyloc::criticalSegments(triangulation, checkedRange(range)), range);
+}
+
+double VisibilityCells::greatestRange(const PolygonMap& map, std::size_t max_cells) {
+  const Triangulation triangulation(withoutWallsBeyond(map));
+  const BoundingBox& box = triangulation.box();
+  const double diagonal = std::hypot(box.max.x - box.min.x, box.max.y - box.min.y);
+  // Upwards, so that no count is much longer than the budget is high.
+  double greatest = 0.0;
+  for (int step = 0;; ++step) {
+    const double limit = kLeastRange * std::pow(2.0, 0.5 * step);
+    const double range = limit < diagonal ? limit : kUnlimitedRange;
+    const CellEstimate estimate = estimateOf(
+        triangulation, mrpt_polyloc::criticalSegments(triangulation, range), range, max_cells + 1);
+    if (estimate.cells() > max_cells) {
+      if (step == 0) throw CellBudgetError(VisibilityCells::estimate(map, range), max_cells);
+      return greatest;
+    }
+    greatest = range;
+    if (std::isinf(range)) return greatest;
+  }
 }
 
 VisibilityCells::VisibilityCells(const PolygonMap& map, const VisibilityCellsParams& params)
@@ -205,7 +232,9 @@ void VisibilityCells::buildBuckets() {
   bucket_columns_ = static_cast<std::size_t>(width / bucket_size_) + 1;
   bucket_rows_ = static_cast<std::size_t>(height / bucket_size_) + 1;
   first_in_bucket_.assign(bucket_columns_ * bucket_rows_ + 1, 0);
+  // A cell rounded to nothing holds no point, but its edges seem to hold all those on their line.
   for (std::size_t cell = 0; cell < size(); ++cell) {
+    if (area(cell) <= 0.0) continue;
     forEachBucket(cell, [this](std::size_t bucket) { ++first_in_bucket_[bucket + 1]; });
   }
   for (std::size_t b = 1; b < first_in_bucket_.size(); ++b) {
@@ -214,6 +243,7 @@ void VisibilityCells::buildBuckets() {
   bucket_cells_.resize(first_in_bucket_.back());
   std::vector<std::uint32_t> next(first_in_bucket_.begin(), first_in_bucket_.end() - 1);
   for (std::size_t cell = 0; cell < size(); ++cell) {
+    if (area(cell) <= 0.0) continue;
     forEachBucket(cell, [&](std::size_t bucket) {
       bucket_cells_[next[bucket]++] = static_cast<std::uint32_t>(cell);
     });

@@ -57,6 +57,11 @@ class VisibilityCells {
   /// The count alone.
   static CellEstimate estimate(const PolygonMap& map, double range = kUnlimitedRange);
 
+  /// The greatest of the ranges 0.0625 m times powers of 2^(1/2) and unlimited (from the map's
+  /// diagonal on) in which there are at most `max_cells` cells by estimate. \throws CellBudgetError
+  /// if there are more in any of them, InvalidMapError
+  static double greatestRange(const PolygonMap& map, std::size_t max_cells);
+
   /// A vertex that comes into sight or is lost when an edge of a cell is crossed.
   struct Change {
     std::int32_t vertex;  ///< of triangulation()

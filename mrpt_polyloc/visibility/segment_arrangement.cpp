@@ -1,15 +1,19 @@
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/visibility/segment_arrangement.h>
 
-#include <CGAL/Arr_consolidated_curve_data_traits_2.h>
+#include <CGAL/Arr_curve_data_traits_2.h>
 #include <CGAL/Arr_extended_dcel.h>
 #include <CGAL/Arr_segment_traits_2.h>
 #include <CGAL/Arrangement_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace mrpt_polyloc {
 namespace {
@@ -18,8 +22,47 @@ using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using Point = Kernel::Point_2;
 using Line = Kernel::Line_2;
 using Segment = Kernel::Segment_2;
-/// What lies along an edge: the number of a critical segment, kBoundary or kDivider.
-using Traits = CGAL::Arr_consolidated_curve_data_traits_2<CGAL::Arr_segment_traits_2<Kernel>, int>;
+
+/// What lies along an edge: numbers of critical segments, kBoundary or kDivider. Nearly always one,
+/// which must not cost an allocation; a sorted list where segments overlap.
+class CurveIds {
+ public:
+  CurveIds(int id = 0) : first_(id) {}  // NOLINT(google-explicit-constructor): CGAL makes copies
+  CurveIds(const CurveIds& a, const CurveIds& b) {
+    std::vector<int> all;
+    const auto add = [&all](int id) { all.push_back(id); };
+    a.forEach(add);
+    b.forEach(add);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    first_ = all.front();
+    all.erase(all.begin());
+    if (!all.empty()) others_ = std::make_shared<const std::vector<int>>(std::move(all));
+  }
+
+  template <class Visitor>
+  void forEach(Visitor&& visit) const {
+    visit(first_);
+    if (!others_) return;
+    for (const int id : *others_) visit(id);
+  }
+
+  bool operator==(const CurveIds& other) const {
+    if (first_ != other.first_ || !others_ != !other.others_) return false;
+    return !others_ || *others_ == *other.others_;
+  }
+
+ private:
+  int first_;
+  std::shared_ptr<const std::vector<int>> others_;
+};
+
+struct MergeIds {
+  CurveIds operator()(const CurveIds& a, const CurveIds& b) const { return {a, b}; }
+};
+
+using Traits =
+    CGAL::Arr_curve_data_traits_2<CGAL::Arr_segment_traits_2<Kernel>, CurveIds, MergeIds>;
 using Dcel = CGAL::Arr_extended_dcel<Traits, std::int32_t, char, std::int32_t>;
 using Arrangement = CGAL::Arrangement_2<Traits, Dcel>;
 
@@ -47,7 +90,7 @@ Segment exactSegment(const CriticalSegment& s, const std::vector<TPoint2D>& vert
 
 bool togglesFreedom(Arrangement::Halfedge_const_handle h) {
   bool toggles = false;
-  for (const int id : h->curve().data()) toggles ^= id <= kBoundary;
+  h->curve().data().forEach([&](int id) { toggles ^= id <= kBoundary; });
   return toggles;
 }
 
@@ -88,7 +131,8 @@ std::vector<Arrangement::Face_handle> freeFaces(Arrangement& arrangement) {
   return free;
 }
 
-ArrangedFaces flatten(Arrangement& arrangement, const std::vector<Segment>& segments) {
+/// \param segment_rises whether a critical segment runs upwards in the order of x, then y
+ArrangedFaces flatten(Arrangement& arrangement, const std::vector<bool>& segment_rises) {
   ArrangedFaces flat;
   for (auto v = arrangement.vertices_begin(); v != arrangement.vertices_end(); ++v) {
     v->set_data(kUnseen);
@@ -108,12 +152,11 @@ ArrangedFaces flatten(Arrangement& arrangement, const std::vector<Segment>& segm
       flat.edges.push_back({from->data(), is_border ? kOutside : h->twin()->face()->data(),
                             static_cast<std::uint32_t>(flat.windows.size())});
       const bool rises = h->direction() == CGAL::ARR_LEFT_TO_RIGHT;
-      for (const int id : h->curve().data()) {
-        if (id < 0) continue;
-        const Segment& s = segments[static_cast<std::size_t>(id)];
-        const bool segment_rises = CGAL::compare_xy(s.source(), s.target()) == CGAL::SMALLER;
-        flat.windows.push_back(rises == segment_rises ? id + 1 : -(id + 1));
-      }
+      h->curve().data().forEach([&](int id) {
+        if (id < 0) return;
+        flat.windows.push_back(rises == segment_rises[static_cast<std::size_t>(id)] ? id + 1
+                                                                                    : -(id + 1));
+      });
     });
   }
   flat.first.push_back(static_cast<std::uint32_t>(flat.edges.size()));
@@ -135,8 +178,8 @@ ArrangedFaces arrangeSegments(const std::vector<TPoint2D>& vertices,
       return Segment(toPoint(vertices[static_cast<std::size_t>(edge.first)]),
                      toPoint(vertices[static_cast<std::size_t>(edge.second)]));
     };
-    std::vector<Segment> exact;
-    exact.reserve(segments.size());
+    std::vector<bool> rises;
+    rises.reserve(segments.size());
     std::vector<Traits::Curve_2> curves;
     curves.reserve(boundary.size() + dividers.size() + segments.size());
     for (std::size_t i = 0; i < boundary.size(); ++i) {
@@ -144,13 +187,14 @@ ArrangedFaces arrangeSegments(const std::vector<TPoint2D>& vertices,
     }
     for (const auto& edge : dividers) curves.emplace_back(between(edge), kDivider);
     for (std::size_t i = 0; i < segments.size(); ++i) {
-      exact.push_back(exactSegment(segments[i], vertices));
-      curves.emplace_back(exact.back(), static_cast<int>(i));
+      const Segment exact = exactSegment(segments[i], vertices);
+      rises.push_back(CGAL::compare_xy(exact.source(), exact.target()) == CGAL::SMALLER);
+      curves.emplace_back(exact, static_cast<int>(i));
     }
     Arrangement arrangement;
     CGAL::insert(arrangement, curves.begin(), curves.end());
     curves = {};
-    return flatten(arrangement, exact);
+    return flatten(arrangement, rises);
   } catch (const std::exception& e) {
     throw InvalidMapError(std::string("the map cannot be divided into cells: ") + e.what());
   }

@@ -38,7 +38,7 @@ bool cross(const Span& s, const Span& t) {
 
 std::size_t countCrossings(const std::vector<CriticalSegment>& segments,
                            const std::vector<std::pair<std::int32_t, std::int32_t>>& edges,
-                           const std::vector<TPoint2D>& vertices) {
+                           const std::vector<TPoint2D>& vertices, std::size_t enough) {
   if (segments.empty()) return 0;
   const TPoint2D origin = vertices.front();
   std::vector<Span> spans;
@@ -53,7 +53,7 @@ std::size_t countCrossings(const std::vector<CriticalSegment>& segments,
   }
   std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.x < b.x; });
   std::size_t count = 0;
-  for (std::size_t i = 0; i < spans.size(); ++i) {
+  for (std::size_t i = 0; i < spans.size() && count < enough; ++i) {
     const Span s = spans[i];
     std::uint32_t crossings = 0;
     for (std::size_t j = i + 1; j < spans.size() && spans[j].x <= s.right; ++j) {

@@ -92,6 +92,21 @@ TEST_F(PolylocEval, FiguresDoNotDependOnThreads) {
   EXPECT_EQ(figures("1"), figures("2"));
 }
 
+TEST_F(PolylocEval, CellsFindTheSame) {
+  simulate("sim");
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--method", "cells"},
+        std::vector<std::string>{"--method", "cells", "--range", "3", "--threads", "2"}}) {
+    const Outcome outcome = evaluate(more);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const json result = summary();
+    EXPECT_EQ(result["scans"], 12);
+    for (const char* key : {"top1", "top20", "unique_right"}) EXPECT_EQ(result[key], 1.0) << key;
+    EXPECT_LT(result["median_error_m"].get<double>(), 0.02);
+    EXPECT_GT(result["index_mb"].get<double>(), 0.0);
+  }
+}
+
 TEST_F(PolylocEval, TruthThatDoesNotMatchFails) {
   simulate("sim");
   const std::vector<std::string> lines = linesOf(readFile(path("sim/truth.tum")));

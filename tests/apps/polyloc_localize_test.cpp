@@ -203,6 +203,32 @@ TEST_F(PolylocLocalize, ACompassAndAPlaceRuleOutOtherPoses) {
   }
 }
 
+TEST_F(PolylocLocalize, TheNearestCellsHonourCompassAndPlaceToo) {
+  simulate("sim");
+  const auto truth = loadTum(path("sim/truth.tum"));
+  const auto firstPose = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"--rows", "2", "--method", "cells"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = localize(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return fieldsOf(linesOf(outcome.out).at(1));
+  };
+  const double degrees = truth[2].pose_map_robot.phi * 180 / M_PI;
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--compass", std::to_string(degrees)}, {"--range", "2"}}) {
+    const std::vector<std::string> fields = firstPose(more);
+    ASSERT_EQ(fields[3], "1");
+    EXPECT_NEAR(std::stod(fields[4]), truth[2].pose_map_robot.x, 0.05);
+    EXPECT_NEAR(std::stod(fields[5]), truth[2].pose_map_robot.y, 0.05);
+    EXPECT_LT(std::abs(std::remainder(std::stod(fields[6]) - degrees, 360)), 1.0);
+  }
+  // The other way round at best something else fits, and nothing far away.
+  const std::vector<std::string> reversed = firstPose({"--compass", std::to_string(degrees + 180)});
+  EXPECT_TRUE(reversed[3] == "0" ||
+              std::abs(std::remainder(std::stod(reversed[6]) - degrees, 360)) > 160);
+  EXPECT_EQ(firstPose({"--near", "100,100,1"})[3], "0");
+}
+
 TEST_F(PolylocLocalize, ScansWithoutInformationHaveOneRowOfRankZero) {
   const Outcome outcome = localize({}, scansOfBeams({0, 1}));
   ASSERT_EQ(outcome.code, 0) << outcome.err;

@@ -201,6 +201,12 @@ TEST_F(PolylocMap, RefusesTooManyVisibilityCellsWithTheirCount) {
   EXPECT_THAT(outcome.err, HasSubstr("visibility cells, more than the budget of 1000000"));
   EXPECT_THAT(outcome.out, IsEmpty());
   EXPECT_FALSE(std::filesystem::exists(path("cells.svg")));
+
+  const Outcome limited = map({hall, "--cells", "--range", "4", "--json"});
+  ASSERT_EQ(limited.code, 0) << limited.err;
+  const json report = json::parse(limited.out);
+  EXPECT_GT(report["cells"], 1000);
+  EXPECT_LT(report["cells"], 100000);
 }
 
 TEST_F(PolylocMap, WritesWhatIsSeenFromAPoint) {

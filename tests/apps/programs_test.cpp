@@ -97,16 +97,19 @@ BadUsage simulation(const char* name, std::vector<std::string> more, const char*
 
 INSTANTIATE_TEST_SUITE_P(
     Map, UsageErrors,
-    testing::Values(BadUsage{"map_two_inputs", "polyloc-map", {"a.wkt", "b.wkt"}, "b.wkt"},
-                    BadUsage{"map_empty_input", "polyloc-map", {""}, "empty"},
-                    BadUsage{"map_output_without_name", "polyloc-map", {"a.wkt", "-o"}, "-o"}),
+    testing::Values(
+        BadUsage{"map_two_inputs", "polyloc-map", {"a.wkt", "b.wkt"}, "b.wkt"},
+        BadUsage{"map_range_alone", "polyloc-map", {"a.wkt", "--range", "5"}, "requires --cells"},
+        BadUsage{"map_empty_input", "polyloc-map", {""}, "empty"},
+        BadUsage{"map_output_without_name", "polyloc-map", {"a.wkt", "-o"}, "-o"}),
     [](const auto& tested) { return tested.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Localize, UsageErrors,
     testing::Values(
         BadUsage{"no_scans", "polyloc-localize", {"--map", "a.wkt"}, "--scans is required"},
-        localize("cells", {"--method", "cells"}, "--method cells is not built yet"),
+        localize("range_alone", {"--range", "5"}, "it needs --method cells"),
+        localize("range_zero", {"--method", "cells", "--range", "0"}, "'0'"),
         localize("unknown_method", {"--method", "best"}, "unknown method 'best'"),
         localize("index", {"--method", "exhaustive", "--index", "a.idx"},
                  "--index needs --method certified"),
@@ -135,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Eval, UsageErrors,
-    testing::Values(evaluate("eval_method", {"--method", "cells"}, "not built yet"),
+    testing::Values(evaluate("eval_method", {"--method", "best"}, "unknown method"),
                     evaluate("eval_tolerance_one", {"--tolerance", "0.3"}, "'0.3' is not M,DEG"),
                     evaluate("eval_tolerance_zero", {"--tolerance", "0,5"}, "'0,5' is not M,DEG"),
                     evaluate("eval_tolerance_turn", {"--tolerance", "1,181"}, "'1,181' is not"),

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 #include <string>
@@ -295,6 +296,22 @@ TEST(VisibilityCells, AreRefusedOverBudget) {
   }
   EXPECT_THROW(VisibilityCells(map, {100, -1.0}), InvalidParamsError);
   EXPECT_THROW(VisibilityCells(map, {100, std::nan("")}), InvalidParamsError);
+}
+
+TEST(VisibilityCells, FitTheirBudgetInTheGreatestRange) {
+  const PolygonMap map = test::pillarMap(4, 3);
+  EXPECT_TRUE(std::isinf(VisibilityCells::greatestRange(map, 1'000'000)));
+  double previous = std::numeric_limits<double>::infinity();
+  for (const std::size_t budget : {3000U, 1000U, 300U}) {
+    const double range = VisibilityCells::greatestRange(map, budget);
+    EXPECT_LE(range, previous);
+    EXPECT_LE(VisibilityCells(map, {budget, range}).size(), budget);
+    // The next one is too much, by the count or because it is all there is.
+    const double next = 1.4142136 * range;
+    EXPECT_GT(VisibilityCells::estimate(map, next).cells(), budget);
+    previous = range;
+  }
+  EXPECT_THROW(VisibilityCells::greatestRange(map, 3), CellBudgetError);
 }
 
 TEST(VisibilityCells, AreNeverMoreThanEstimated) {

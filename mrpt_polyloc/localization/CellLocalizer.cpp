@@ -1,0 +1,157 @@
+#include <mrpt_polyloc/geometry/Triangulation.h>
+#include <mrpt_polyloc/geometry/params_check.h>
+#include <mrpt_polyloc/localization/CellLocalizer.h>
+#include <mrpt_polyloc/localization/Stopwatch.h>
+#include <mrpt_polyloc/localization/candidate_ranking.h>
+#include <mrpt_polyloc/localization/cell_views.h>
+#include <mrpt_polyloc/polar/CirclePlan.h>
+#include <mrpt_polyloc/visibility/VisibilityCells.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace mrpt_polyloc {
+namespace {
+
+using mrpt::math::TPose2D;
+
+/// Poses told apart by a lattice of positions and headings: one of each place is refined.
+class DifferentPoses {
+ public:
+  bool isNew(const TPose2D& pose) {
+    constexpr double kSide = 0.3, kTurn = 0.08726646259971647;  // m, rad: 5 degrees
+    return seen_
+        .insert({std::lround(pose.x / kSide), std::lround(pose.y / kSide),
+                 std::lround(pose.phi / kTurn)})
+        .second;
+  }
+
+ private:
+  std::set<std::array<long, 3>> seen_;
+};
+
+VisibilityCells makeCells(const PolygonMap& map, const CellLocalizerParams& params) {
+  const double range =
+      params.range ? *params.range : VisibilityCells::greatestRange(map, params.max_cells);
+  return VisibilityCells(map, {params.max_cells, range});
+}
+
+}  // namespace
+
+void CellLocalizerParams::check() const {
+  requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e6);
+  requireInRange("threads", threads, 0.0, 1024.0);
+  if (range && !(std::isinf(*range) && *range > 0.0)) requirePositive("range", *range);
+  requireInRange("max_cells", static_cast<double>(max_cells), 1.0, 1e8);
+  requireInRange("spacing", spacing, 0.01, 100.0);
+  view.check();
+  requireInRange("max_candidates", static_cast<double>(max_candidates), 1.0, 1e6);
+  requireInRange("distance_share", distance_share, 1.0, 1e6);
+  requireNotNegative("distance_margin", distance_margin);
+  cost.check();
+  refinement.check();
+  hypotheses.check();
+}
+
+struct CellLocalizer::Impl {
+  Impl(PolygonMap polygon_map, const CellLocalizerParams& parameters)
+      : params(parameters), map(std::move(polygon_map)) {
+    {  // The cells go before the views come: together they would double the memory.
+      const VisibilityCells cells = makeCells(map, params);
+      cell_count = cells.size();
+      cell_range = cells.range();
+      viewpoints = cellViewpoints(cells, params.spacing);
+    }
+    predictor.emplace(Triangulation(map), RangePredictor::kCellSize, params.threads);
+    views.emplace(
+        viewsFrom(viewpoints, *predictor, params.view.samples, params.view.range, params.threads));
+  }
+
+  CellLocalizerParams params;
+  PolygonMap map;
+  std::size_t cell_count = 0;
+  double cell_range = 0.0;
+  std::vector<TPoint2D> viewpoints;
+  std::optional<RangePredictor> predictor;
+  std::optional<ViewIndex> views;
+};
+
+CellLocalizer::CellLocalizer(PolygonMap map, CellLocalizerParams params) {
+  params.check();
+  impl_ = std::make_unique<Impl>(std::move(map), params);
+}
+CellLocalizer::~CellLocalizer() = default;
+CellLocalizer::CellLocalizer(CellLocalizer&&) noexcept = default;
+
+const PolygonMap& CellLocalizer::map() const {
+  return impl_->map;
+}
+double CellLocalizer::cellRange() const {
+  return impl_->cell_range;
+}
+std::size_t CellLocalizer::cellCount() const {
+  return impl_->cell_count;
+}
+const ViewIndex& CellLocalizer::views() const {
+  return *impl_->views;
+}
+const std::vector<TPoint2D>& CellLocalizer::viewpoints() const {
+  return impl_->viewpoints;
+}
+std::size_t CellLocalizer::indexBytes() const {
+  return impl_->views->bytes() + impl_->viewpoints.capacity() * sizeof(TPoint2D) +
+         impl_->predictor->index().bytes();
+}
+
+LocalizationResult CellLocalizer::localize(const RangeScan& scan, const PosePrior& prior) const {
+  prior.check();
+  const CellLocalizerParams& params = impl_->params;
+  LocalizationResult result;
+  result.statistics.positions = impl_->viewpoints.size();
+  if (scan.hitCount() < params.least_hits) return result;
+  const Stopwatch watch;
+  const std::optional<ScanView> view = viewOfScan(scan, params.view);
+  if (!view) return result;
+
+  ViewIndex::Query query{view->samples, {}, view->reach, {}};
+  if (prior.compass) query.rotations = {prior.compass->heading, prior.compass->tolerance};
+  if (prior.near) {
+    // The sensor is off the robot, and the viewpoint off the sensor.
+    const double reach =
+        prior.near->radius + std::hypot(scan.sensor().x, scan.sensor().y) + params.spacing;
+    const PosePrior::Disk disk = *prior.near;
+    query.accepts = [this, disk, reach](std::size_t v) {
+      const TPoint2D& p = impl_->viewpoints[v];
+      return std::hypot(p.x - disk.x, p.y - disk.y) <= reach;
+    };
+  }
+  std::vector<TPose2D> candidates;
+  DifferentPoses different;
+  double farthest = std::numeric_limits<double>::infinity();
+  result.statistics.evaluated =
+      impl_->views->visitNearest(query, [&](const ViewIndex::Neighbor& neighbor) {
+        if (candidates.empty()) {
+          farthest = params.distance_share * neighbor.distance + params.distance_margin;
+        }
+        if (neighbor.distance > farthest) return false;
+        const TPoint2D& p = impl_->viewpoints[neighbor.view];
+        TPose2D pose(p.x, p.y, neighbor.rotation);
+        pose.normalizePhi();
+        if (different.isNew(pose)) candidates.push_back(pose);
+        return candidates.size() < params.max_candidates;
+      });
+  result.statistics.search_ms = 1e3 * watch.seconds();
+
+  LocalizationResult ranked =
+      rankCandidates(candidates, scan, prior, *impl_->predictor,
+                     {params.max_hypotheses, params.cost, params.refinement, params.hypotheses});
+  ranked.statistics.positions = result.statistics.positions;
+  ranked.statistics.evaluated = result.statistics.evaluated;
+  ranked.statistics.search_ms = result.statistics.search_ms;
+  return ranked;
+}
+
+}  // namespace mrpt_polyloc
