@@ -3,6 +3,7 @@
 #include "Progress.h"
 #include "map_input.h"
 #include "view_polygons.h"
+#include <mrpt_polyloc/evaluation/calibration_files.h>
 #include <mrpt_polyloc/localization/ExactLocalizer.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 
@@ -37,6 +38,9 @@ ScanLocalizer makeExhaustive(PolygonMap map, const SearchOptions& search) {
   GlobalLocalizerParams params;
   params.max_hypotheses = search.max_hypotheses;
   params.threads = static_cast<int>(search.threads);
+  params.hypotheses.calibration = search.calibration_file.empty()
+                                      ? search.calibration
+                                      : loadCalibration(search.calibration_file);
   // Shared, for a std::function must be copyable.
   const auto localizer = std::make_shared<const GlobalLocalizer>(std::move(map), params);
   return {localizer->map(),
@@ -93,6 +97,9 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
            "Threads for the index and for scans at once [default: all cores for the index, one "
            "scan at a time]")
       ->type_name("N");
+  addText(options, "--calibration", search.calibration_file,
+          "What costs mean for this sensor, from polyloc-calibrate [default: built in]")
+      ->type_name("FILE.json");
 }
 
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search) {

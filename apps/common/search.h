@@ -2,6 +2,7 @@
 
 #include "Cli.h"
 #include <mrpt_polyloc/geometry/PolygonMap.h>
+#include <mrpt_polyloc/localization/Calibration.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 #include <mrpt_polyloc/localization/RangeScan.h>
 #include <mrpt_polyloc/mrpt_bridge/scan_files.h>
@@ -23,9 +24,11 @@ struct SearchOptions {
   /// Threads for the index, and for scans at once; 0 (not given): all cores for the index, and one
   /// scan after the other, so that the times of a scan mean something.
   std::uint64_t threads = 0;
+  std::string calibration_file;  ///< empty: `calibration` holds
+  Calibration calibration;
 };
 
-/// Adds --map, --scans, --method, --max-hypotheses and --threads.
+/// Adds --map, --scans, --method, --max-hypotheses, --threads and --calibration.
 void addSearchOptions(CLI::App& options, SearchOptions& search);
 
 /// What a method is to the programs: a map made ready, and one scan in, all poses out.
@@ -37,6 +40,7 @@ struct ScanLocalizer {
 };
 
 /// Prepares the search of `search.method` in a map.
+/// \throws FormatError if the calibration file cannot be read
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search);
 
 /// What the method searches for: the scans of a log or, for `exact`, the polygons of a WKT file

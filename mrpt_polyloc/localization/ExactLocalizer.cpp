@@ -120,6 +120,7 @@ LocalizationResult ExactLocalizer::localize(const std::vector<TPoint2D>& view,
   std::sort(poses.begin(), poses.end(), [](const TPose2D& a, const TPose2D& b) {
     return std::tie(a.x, a.y, a.phi) < std::tie(b.x, b.y, b.phi);
   });
+  result.match_probability = poses.empty() ? 0.0 : 1.0;  // without noise nothing is left to chance
   result.status = poses.empty()       ? LocalizationStatus::no_match
                   : poses.size() == 1 ? LocalizationStatus::unique
                                       : LocalizationStatus::ambiguous;
