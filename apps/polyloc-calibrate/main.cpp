@@ -55,6 +55,9 @@ void addOptions(CLI::App& cli, Options& options) {
   addNumber(cli, "--unique-right", options.fit.unique_right, {0.0, 1.0},
             "Share of the unique answers that must be right [default: 0.995]")
       ->type_name("SHARE");
+  addNumber(cli, "--clutter-weight", options.fit.clutter_weight, {0.0, 1e6, true},
+            "A cluttered scan counts as so many own ones [default: 0.1]")
+      ->type_name("WEIGHT");
   addCount(cli, "--threads", options.threads, 1, 1024,
            "Threads for the index and for scans at once [default: all cores for the index, one "
            "scan at a time]")
@@ -66,9 +69,9 @@ std::vector<std::string> originOf(const Options& options, const std::vector<Cali
   std::vector<std::string> lines = {"polyloc-calibrate SETS --own " + std::to_string(options.own) +
                                     " --cluttered " + std::to_string(options.cluttered) +
                                     " --foreign " + std::to_string(options.foreign)};
-  char rest[80];
-  std::snprintf(rest, sizeof rest, "  --lost %g --unique-right %g, on the sets", options.fit.lost,
-                options.fit.unique_right);
+  char rest[120];
+  std::snprintf(rest, sizeof rest, "  --lost %g --unique-right %g --clutter-weight %g, on the sets",
+                options.fit.lost, options.fit.unique_right, options.fit.clutter_weight);
   lines.emplace_back(rest);
   for (const CalibrationSet& set : sets) {
     lines.push_back("  " + set.name.substr(0, 60) + " (" + std::to_string(set.scans.size()) +

@@ -4,7 +4,7 @@
 
 /// Written by polyloc-calibrate; do not edit.
 /// polyloc-calibrate SETS --own 1000000 --cluttered 60 --foreign 40
-///   --lost 0.005 --unique-right 0.995, on the sets
+///   --lost 0.005 --unique-right 0.995 --clutter-weight 0.1, on the sets
 ///   intel (454 scans)
 ///   fr079 (299 scans)
 ///   csail (202 scans)

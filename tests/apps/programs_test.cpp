@@ -172,6 +172,7 @@ INSTANTIATE_TEST_SUITE_P(
         calibration("lost_too_large", {"--lost", "0.6"}, "--lost: '0.6'"),
         calibration("lost_word", {"--lost", "few"}, "--lost: 'few'"),
         calibration("unique_negative", {"--unique-right", "-1"}, "--unique-right: '-1'"),
+        calibration("weightless_clutter", {"--clutter-weight", "0"}, "--clutter-weight: '0'"),
         calibration("no_foreign", {"--foreign", "0"}, "--foreign: '0'"),
         calibration("no_own", {"--own", "0"}, "--own: '0'"),
         calibration("calibrate_threads", {"--threads", "0"}, "--threads: '0'"),
