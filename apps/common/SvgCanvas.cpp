@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace mrpt_polyloc::apps {
 namespace {
@@ -91,7 +92,8 @@ std::string styleSheet(double scale) {
 
 }  // namespace
 
-SvgCanvas::SvgCanvas(const BoundingBox& view) : view_(view) {
+SvgCanvas::SvgCanvas(const BoundingBox& view, std::string unit)
+    : view_(view), unit_(std::move(unit)) {
   const double longest = std::max(view.max.x - view.min.x, view.max.y - view.min.y);
   const double margin = kMargin * std::max(longest, 1.0);
   view_.min.x -= margin;
@@ -151,7 +153,8 @@ std::string SvgCanvas::scaleBar(double y_px) const {
   return "<path d=\"M" + px(left) + " " + px(y_px - 5) + "v10M" + px(left) + " " + px(y_px) + "H" +
          px(right) + "M" + px(right) + " " + px(y_px - 5) +
          "v10\" fill=\"none\" stroke=\"#1b2430\" stroke-width=\"2\"/>\n<text class=\"note\" x=\"" +
-         px(right + 8) + "\" y=\"" + px(y_px + 5) + "\">" + number(metres, 3) + " m</text>\n";
+         px(right + 8) + "\" y=\"" + px(y_px + 5) + "\">" + number(metres, 3) + " " + unit_ +
+         "</text>\n";
 }
 
 std::string SvgCanvas::legendRow(double y_px) const {

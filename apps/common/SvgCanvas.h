@@ -13,7 +13,8 @@ namespace mrpt_polyloc::apps {
 class SvgCanvas {
  public:
   /// \param view what must be seen [m]; a margin is added. The longer side has about 1200 pixels.
-  explicit SvgCanvas(const BoundingBox& view);
+  /// \param unit of the scale bar
+  explicit SvgCanvas(const BoundingBox& view, std::string unit = "m");
 
   double metresPerPixel() const { return 1.0 / scale_; }
 
@@ -44,6 +45,7 @@ class SvgCanvas {
   std::string legendRow(double y_px) const;
 
   BoundingBox view_;
+  std::string unit_;
   double scale_;      ///< pixels per metre
   double width_px_;   ///< of the map's part
   double height_px_;  ///< of the map's part

@@ -4,6 +4,7 @@
 #include "Progress.h"
 #include "map_input.h"
 #include "view_polygons.h"
+#include <mrpt_polyloc/evaluation/calibration_files.h>
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/localization/CellLocalizer.h>
 #include <mrpt_polyloc/localization/ExactLocalizer.h>
@@ -71,6 +72,11 @@ std::shared_ptr<const GlobalLocalizer> makeShared(PolygonMap map, const std::str
   return localizer;
 }
 
+Calibration calibrationOf(const SearchOptions& search) {
+  return search.calibration_file.empty() ? search.calibration
+                                         : loadCalibration(search.calibration_file);
+}
+
 ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
   GlobalLocalizerParams params;
   params.method =
@@ -78,6 +84,7 @@ ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
   params.max_hypotheses = search.max_hypotheses;
   params.threads = static_cast<int>(search.threads);
   params.certified.time_budget_ms = search.time_budget_ms;
+  params.hypotheses.calibration = calibrationOf(search);
   // Shared, for a std::function must be copyable.
   const auto localizer = makeShared(std::move(map), search.index, params);
   return {localizer->map(),
@@ -92,6 +99,7 @@ ScanLocalizer makeCells(PolygonMap map, const SearchOptions& search) {
   params.max_hypotheses = search.max_hypotheses;
   params.threads = static_cast<int>(search.threads);
   params.range = search.cell_range;
+  params.hypotheses.calibration = calibrationOf(search);
   const auto localizer = std::make_shared<const CellLocalizer>(std::move(map), params);
   return {localizer->map(),
           [localizer](const RangeScan& scan, const PosePrior& prior) {
@@ -160,6 +168,9 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
            "Threads for the index and for scans at once [default: all cores for the index, one "
            "scan at a time]")
       ->type_name("N");
+  addText(options, "--calibration", search.calibration_file,
+          "What costs mean for this sensor, from polyloc-calibrate [default: built in]")
+      ->type_name("FILE.json");
 }
 
 void addCertifiedOptions(CLI::App& options, SearchOptions& search) {

@@ -2,6 +2,7 @@
 
 #include "Cli.h"
 #include <mrpt_polyloc/geometry/PolygonMap.h>
+#include <mrpt_polyloc/localization/Calibration.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 #include <mrpt_polyloc/localization/RangeScan.h>
 #include <mrpt_polyloc/mrpt_bridge/scan_files.h>
@@ -27,9 +28,11 @@ struct SearchOptions {
   /// Threads for the index, and for scans at once; 0 (not given): all cores for the index, and one
   /// scan after the other, so that the times of a scan mean something.
   std::uint64_t threads = 0;
+  std::string calibration_file;  ///< empty: `calibration` holds
+  Calibration calibration;
 };
 
-/// Adds --map, --scans, --method, --range, --max-hypotheses and --threads.
+/// Adds --map, --scans, --method, --range, --max-hypotheses, --threads and --calibration.
 /// --range with another method than cells is a usage error.
 void addSearchOptions(CLI::App& options, SearchOptions& search);
 
@@ -46,7 +49,7 @@ void addCertifiedOptions(CLI::App& options, SearchOptions& search);
 
 /// Prepares the search of `search.method` in a map, for so many scans: for `exact` with the map's
 /// skeletons where that pays. Reads `search.index` if it is there, else writes it.
-/// \throws FormatError naming the index; CellBudgetError
+/// \throws FormatError naming the index or the calibration file; CellBudgetError
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::size_t scans);
 
 /// What the method searches for: the scans of a log or, for `exact`, the polygons of a WKT file

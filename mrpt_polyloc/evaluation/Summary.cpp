@@ -30,6 +30,12 @@ bool isRightWithin(const ScanScore& score, std::size_t rank) {
 
 }  // namespace
 
+bool isRight(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth,
+             const Tolerance& tolerance) {
+  const PoseError error = errorOf(pose, truth);
+  return error.distance <= tolerance.distance && error.angle <= tolerance.angle;
+}
+
 ScanScore scoreScan(const LocalizationResult& result, const mrpt::math::TPose2D& truth,
                     const Tolerance& tolerance) {
   ScanScore score;
@@ -42,7 +48,7 @@ ScanScore scoreScan(const LocalizationResult& result, const mrpt::math::TPose2D&
       score.error_m = error.distance;
       score.error_rad = error.angle;
     }
-    if (error.distance <= tolerance.distance && error.angle <= tolerance.angle) {
+    if (isRight(result.hypotheses[i].pose_map_robot, truth, tolerance)) {
       score.right_rank = i + 1;
       break;
     }

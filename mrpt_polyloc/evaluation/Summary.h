@@ -27,8 +27,12 @@ struct ScanScore {
   double ms = 0.0;         ///< search and refinement
 };
 
-/// Compares the answer to one scan with the truth: right is what lies within both tolerances
-/// (inclusive), headings compared modulo 2 pi.
+/// Whether a pose lies within both tolerances of the truth (inclusive), headings compared modulo
+/// 2 pi.
+bool isRight(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth,
+             const Tolerance& tolerance = {});
+
+/// Compares the answer to one scan with the truth, see isRight().
 ScanScore scoreScan(const LocalizationResult& result, const mrpt::math::TPose2D& truth,
                     const Tolerance& tolerance = {});
 

@@ -88,6 +88,7 @@ LocalizationResult ExactCandidates::result(std::size_t max_hypotheses) {
   });
   LocalizationResult result;
   result.statistics.evaluated = evaluated_;
+  result.match_probability = poses_.empty() ? 0.0 : 1.0;  // without noise nothing is left to chance
   result.status = poses_.empty()       ? LocalizationStatus::no_match
                   : poses_.size() == 1 ? LocalizationStatus::unique
                                        : LocalizationStatus::ambiguous;

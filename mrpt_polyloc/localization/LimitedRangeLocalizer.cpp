@@ -242,14 +242,14 @@ double LimitedRangeLocalizer::clearance(const TPoint2D& point) const {
 }
 
 std::optional<LimitedAnswers::Region> LimitedRangeLocalizer::clearRegion(double range) const {
-  struct Square {
+  struct ClearSquare {
     double bound;  ///< of the clearance in it
     TPoint2D center;
     double half;
-    bool operator<(const Square& other) const { return bound < other.bound; }
+    bool operator<(const ClearSquare& other) const { return bound < other.bound; }
   };
   constexpr double kSmallest = 0.5e-3;  // half a side [m]
-  std::priority_queue<Square> squares;
+  std::priority_queue<ClearSquare> squares;
   LimitedAnswers::Region best{range, box_.min};
   double most = -std::numeric_limits<double>::infinity();
   const auto add = [&](const TPoint2D& center, double half) {
@@ -265,7 +265,7 @@ std::optional<LimitedAnswers::Region> LimitedRangeLocalizer::clearRegion(double 
   add({0.5 * (box_.min.x + box_.max.x), 0.5 * (box_.min.y + box_.max.y)},
       0.5 * std::max(width, height));
   while (!squares.empty() && squares.top().bound > most && most < range) {
-    const Square square = squares.top();
+    const ClearSquare square = squares.top();
     squares.pop();
     if (square.bound < range - tolerance_) break;
     if (square.half < kSmallest) continue;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/localization/MatchFeatures.h>
+
 #include <mrpt/math/CMatrixFixed.h>
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
@@ -25,8 +27,12 @@ const char* toString(LocalizationStatus status);
 struct Hypothesis {
   mrpt::math::TPose2D pose_map_robot;      ///< of the ROBOT, not its sensor [m, rad]
   mrpt::math::CMatrixDouble33 covariance;  ///< of (x, y, phi) of the robot [m, rad]
-  double weight = 0.0;                     ///< share of belief; all weights sum to 1
-  double cost = 0.0;                       ///< mean robust cost per beam [m]
+  /// Probability that this is the pose, if one of the hypotheses is; all weights sum to 1.
+  double weight = 0.0;
+  double cost = 0.0;  ///< mean robust cost per beam [m]
+  /// By how many standard errors it explains the scan worse than the first does, sectors of beams
+  /// taken as the independent observations; 0 for the first.
+  double behind = 0.0;
 };
 
 /// What is known of the robot's pose before the search; empty means nothing.
@@ -74,6 +80,10 @@ struct PoseRegion {
 /// All hypotheses for one scan, best first; empty unless status is unique or ambiguous.
 struct LocalizationResult {
   LocalizationStatus status = LocalizationStatus::too_few_beams;
+  /// Probability that the scan was taken in this map, as far as its best answer tells (see
+  /// MatchFeatures), if as many scans are foreign as are not; 0 where nothing was found.
+  double match_probability = 0.0;
+  std::optional<MatchFeatures> features;  ///< of the best answer, if there is one
   std::vector<Hypothesis> hypotheses;
   std::optional<Certificate> certificate;  ///< of the certified search alone
   std::vector<PoseRegion> regions;         ///< if asked for

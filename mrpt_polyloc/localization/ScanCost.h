@@ -20,6 +20,13 @@ class ScanCost {
   /// Beams that take part: hits and no-returns, in the scan's order.
   std::size_t beamCount() const { return beams_.size(); }
 
+  const std::vector<Beam>& beams() const { return beams_; }
+
+  /// What the map predicts for these beams.
+  void predict(const mrpt::math::TPose2D& pose_map_beams, PredictedRanges& out) const {
+    predictor_->predict(pose_map_beams, pattern_, out);
+  }
+
   /// The mean over the beams [m]; 0 if there are none.
   double mean(const mrpt::math::TPose2D& pose_map_beams) const;
 

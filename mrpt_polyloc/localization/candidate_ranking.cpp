@@ -50,6 +50,8 @@ std::vector<RankedPose> refine(const std::vector<mrpt::math::TPose2D>& candidate
   if (poses.size() > 2 * kept) poses.resize(2 * kept);
   for (RankedPose& pose : poses) {
     const RefinedPose refined = fine.refine(pose.refined.pose_map_beams);
+    const auto pose_map_robot = scan.robotFromBeamFrame(refined.pose_map_beams);
+    if (!isAllowed(prior, pose_map_robot, params.hypotheses)) continue;
     const double refined_cost = cost.mean(refined.pose_map_beams);
     if (refined_cost < pose.cost) pose = {refined, refined_cost};
   }

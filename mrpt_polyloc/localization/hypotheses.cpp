@@ -1,11 +1,13 @@
 #include <mrpt_polyloc/geometry/angles.h>
 #include <mrpt_polyloc/geometry/params_check.h>
+#include <mrpt_polyloc/localization/BeamBlocks.h>
+#include <mrpt_polyloc/localization/beam_evidence.h>
 #include <mrpt_polyloc/localization/hypotheses.h>
-
-#include <Eigen/Dense>
+#include <mrpt_polyloc/localization/pose_covariance.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace mrpt_polyloc {
 namespace {
@@ -16,58 +18,17 @@ bool isNear(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b,
          angleBetween(a.phi, b.phi) < params.merge_angle;
 }
 
-/// Mean and standard error of the differences of two cost vectors, by blocks of beams.
-struct PairedDifference {
-  double mean = 0.0;
-  double standard_error = 0.0;
-};
-
-PairedDifference pairedDifference(const std::vector<float>& a, const std::vector<float>& b,
-                                  std::size_t beams_per_block) {
-  std::vector<double> blocks;
-  for (std::size_t first = 0; first < a.size(); first += beams_per_block) {
-    const std::size_t last = std::min(first + beams_per_block, a.size());
-    double sum = 0.0;
-    for (std::size_t i = first; i < last; ++i) {
-      sum += static_cast<double>(b[i]) - static_cast<double>(a[i]);
-    }
-    blocks.push_back(sum / static_cast<double>(last - first));
-  }
-  PairedDifference difference;
-  const auto n = static_cast<double>(blocks.size());
-  for (const double block : blocks) difference.mean += block / n;
-  double squares = 0.0;
-  for (const double block : blocks) squares += std::pow(block - difference.mean, 2);
-  if (blocks.size() > 1) difference.standard_error = std::sqrt(squares / (n - 1.0) / n);
-  return difference;
+double meanOf(const std::vector<float>& values) {
+  if (values.empty()) return 0.0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Covariance of the robot's pose. Neighbouring beams err together: a block of them informs once.
-/// Where the scan holds nothing (along a corridor) the pose is taken to be known to 0.5 m and 10
-/// degrees: a hypothesis is local.
-mrpt::math::CMatrixDouble33 covarianceOfRobot(const RefinedPose& pose, const RangeScan& scan,
-                                              const HypothesisParams& params) {
-  constexpr double kWidestStd = 0.5, kWidestStdAngle = 0.1745;
-  Eigen::Matrix3d information;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      information(row, column) =
-          pose.information(row, column) / static_cast<double>(params.beams_per_block);
-    }
-  }
-  information.diagonal() += Eigen::Vector3d(std::pow(kWidestStd, -2), std::pow(kWidestStd, -2),
-                                            std::pow(kWidestStdAngle, -2));
-  // The robot's origin turns with the heading: robot = beams - R(phi) sensor.
-  const double c = std::cos(pose.pose_map_beams.phi), s = std::sin(pose.pose_map_beams.phi);
-  Eigen::Matrix3d jacobian = Eigen::Matrix3d::Identity();
-  jacobian(0, 2) = s * scan.sensor().x + c * scan.sensor().y;
-  jacobian(1, 2) = -c * scan.sensor().x + s * scan.sensor().y;
-  const Eigen::Matrix3d covariance = jacobian * information.inverse() * jacobian.transpose();
-  mrpt::math::CMatrixDouble33 result;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) result(row, column) = covariance(row, column);
-  }
-  return result;
+/// By how many standard errors the evidence `other` falls behind `best`.
+double errorsBehind(const std::vector<float>& best, const std::vector<float>& other,
+                    const BeamBlocks& blocks, double indifference) {
+  const PairedDifference difference = blocks.difference(best, other);
+  // The best is the best up to rounding.
+  return std::max(0.0, difference.mean) / std::hypot(difference.standard_error, indifference);
 }
 
 }  // namespace
@@ -75,11 +36,8 @@ mrpt::math::CMatrixDouble33 covarianceOfRobot(const RefinedPose& pose, const Ran
 void HypothesisParams::check() const {
   requirePositive("merge_distance", merge_distance);
   requirePositive("merge_angle", merge_angle);
-  requirePositive("no_match_cost", no_match_cost);
-  requireNotNegative("rival_cost", rival_cost);
-  requireNotNegative("rival_deviations", rival_deviations);
-  requireInRange("beams_per_block", static_cast<double>(beams_per_block), 1.0, 1e6);
-  requirePositive("weight_scale", weight_scale);
+  requirePositive("indifference", indifference);
+  calibration.check();
 }
 
 std::vector<RankedPose> mergeNearPoses(std::vector<RankedPose> poses,
@@ -96,35 +54,47 @@ std::vector<RankedPose> mergeNearPoses(std::vector<RankedPose> poses,
   return merged;
 }
 
-bool isUnique(const std::vector<RankedPose>& poses, const ScanCost& cost,
-              const HypothesisParams& params) {
-  if (poses.empty()) return false;
-  const std::vector<float> best = cost.perBeam(poses.front().refined.pose_map_beams);
-  return std::none_of(poses.begin() + 1, poses.end(), [&](const RankedPose& rival) {
-    const PairedDifference difference =
-        pairedDifference(best, cost.perBeam(rival.refined.pose_map_beams), params.beams_per_block);
-    return difference.mean <
-           std::max(params.rival_cost, params.rival_deviations * difference.standard_error);
-  });
-}
-
 std::vector<Hypothesis> toHypotheses(const std::vector<RankedPose>& poses, const RangeScan& scan,
-                                     const HypothesisParams& params) {
-  std::vector<Hypothesis> hypotheses;
-  if (poses.empty()) return hypotheses;
-  const double blocks = static_cast<double>(scan.hitCount() + scan.noReturnCount()) /
-                        static_cast<double>(params.beams_per_block);
-  double sum = 0.0;
+                                     const ScanCost& cost, const HypothesisParams& params,
+                                     std::vector<std::size_t>* order) {
+  if (poses.empty()) return {};
+  std::vector<std::vector<float>> evidence;
+  std::vector<double> means;
+  PredictedRanges predicted;
   for (const RankedPose& pose : poses) {
+    cost.predict(pose.refined.pose_map_beams, predicted);
+    evidence.push_back(beamEvidence(cost.beams(), predicted));
+    means.push_back(meanOf(evidence.back()));
+  }
+  const std::size_t best =
+      static_cast<std::size_t>(std::min_element(means.begin(), means.end()) - means.begin());
+
+  const BeamBlocks blocks(cost.beams());
+  std::vector<double> behind;
+  for (const std::vector<float>& other : evidence) {
+    behind.push_back(errorsBehind(evidence[best], other, blocks, params.indifference));
+  }
+  std::vector<std::size_t> ranks(poses.size());
+  std::iota(ranks.begin(), ranks.end(), std::size_t{0});
+  // By weight, so that a list cut short holds the likeliest; the first is the best by both.
+  std::stable_sort(ranks.begin(), ranks.end(),
+                   [&](std::size_t a, std::size_t b) { return behind[a] < behind[b]; });
+
+  std::vector<Hypothesis> hypotheses;
+  double sum = 0.0;
+  for (const std::size_t i : ranks) {
     Hypothesis hypothesis;
-    hypothesis.pose_map_robot = scan.robotFromBeamFrame(pose.refined.pose_map_beams);
-    hypothesis.covariance = covarianceOfRobot(pose.refined, scan, params);
-    hypothesis.cost = pose.cost;
-    hypothesis.weight = std::exp(-(pose.cost - poses.front().cost) * blocks / params.weight_scale);
+    hypothesis.pose_map_robot = scan.robotFromBeamFrame(poses[i].refined.pose_map_beams);
+    hypothesis.covariance =
+        covarianceOfRobot(poses[i].refined, scan, blocks.count(), params.calibration);
+    hypothesis.cost = poses[i].cost;
+    hypothesis.behind = behind[i];
+    hypothesis.weight = std::exp(-params.calibration.weight_decay * behind[i]);
     sum += hypothesis.weight;
     hypotheses.push_back(hypothesis);
   }
   for (Hypothesis& hypothesis : hypotheses) hypothesis.weight /= sum;
+  if (order != nullptr) *order = ranks;
   return hypotheses;
 }
 

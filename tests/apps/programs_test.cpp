@@ -45,7 +45,7 @@ TEST_P(EveryProgram, UnknownFlagIsAUsageError) {
 
 INSTANTIATE_TEST_SUITE_P(Programs, EveryProgram,
                          testing::Values("polyloc-map", "polyloc-localize", "polyloc-eval",
-                                         "polyloc-simulate"),
+                                         "polyloc-simulate", "polyloc-calibrate"),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            name[name.find('-')] = '_';
@@ -161,6 +161,26 @@ INSTANTIATE_TEST_SUITE_P(
                     simulation("short_negative", {"-n", "1", "--short", "-1"}, "--short: '-1'"),
                     simulation("clearance_inf", {"-n", "1", "--clearance", "inf"}, "'inf'"),
                     simulation("seed_word", {"-n", "1", "--seed", "x"}, "--seed")),
+    [](const auto& tested) { return tested.param.name; });
+
+BadUsage calibration(const char* name, std::vector<std::string> more, const char* message) {
+  std::vector<std::string> arguments = {"sets.txt", "-o", "out"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return {name, "polyloc-calibrate", arguments, message};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Calibrate, UsageErrors,
+    testing::Values(
+        BadUsage{"calibrate_no_output", "polyloc-calibrate", {"sets.txt"}, "-o is required"},
+        calibration("lost_too_large", {"--lost", "0.6"}, "--lost: '0.6'"),
+        calibration("lost_word", {"--lost", "few"}, "--lost: 'few'"),
+        calibration("unique_negative", {"--unique-right", "-1"}, "--unique-right: '-1'"),
+        calibration("weightless_clutter", {"--clutter-weight", "0"}, "--clutter-weight: '0'"),
+        calibration("no_foreign", {"--foreign", "0"}, "--foreign: '0'"),
+        calibration("no_own", {"--own", "0"}, "--own: '0'"),
+        calibration("calibrate_threads", {"--threads", "0"}, "--threads: '0'"),
+        evaluate("empty_calibration", {"--calibration", ""}, "--calibration: the text is empty")),
     [](const auto& tested) { return tested.param.name; });
 
 }  // namespace

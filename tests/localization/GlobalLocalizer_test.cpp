@@ -51,7 +51,8 @@ void expectConsistent(const LocalizationResult& result, std::size_t most = 20) {
     EXPECT_GE(h.weight, 0.0);
     sum += h.weight;
     if (i > 0) {
-      EXPECT_GE(h.cost, result.hypotheses[i - 1].cost);
+      EXPECT_LE(h.weight, result.hypotheses[i - 1].weight);
+      EXPECT_GE(h.behind, result.hypotheses[i - 1].behind);
     }
   }
   if (answered) {
@@ -103,12 +104,13 @@ TEST_F(InAsymmetricRoom, ACleanScanHasOnePose) {
 
 TEST_F(InAsymmetricRoom, StatisticsAndIndexSayWhatWasDone) {
   const auto result = localizer().localize(simulatedScan(asymmetricRoom(), {1.5, 2, 0.3}));
-  // 29.08 m2 at 100 positions a square metre, and border rows.
-  const double area = localizer().map().area();
-  EXPECT_NEAR(static_cast<double>(result.statistics.positions), 100 * area, 0.1 * 100 * area);
+  // 29.08 m2 in cells of a quarter of a metre, and pieces of them along the borders.
+  const double squares = localizer().map().area() / (0.25 * 0.25);
+  EXPECT_GE(static_cast<double>(result.statistics.positions), squares);
+  EXPECT_LT(static_cast<double>(result.statistics.positions), 1.3 * squares);
   EXPECT_GT(result.statistics.evaluated, 0U);
   EXPECT_GT(result.statistics.refined, 0U);
-  EXPECT_LE(result.statistics.refined, PyramidSearchParams{}.max_candidates);
+  EXPECT_LE(result.statistics.refined, CertifiedSearchParams{}.max_candidates);
   EXPECT_GE(result.statistics.search_ms, 0.0);
   EXPECT_GE(result.statistics.refinement_ms, 0.0);
   EXPECT_GT(localizer().indexBytes(), result.statistics.positions * 512);
@@ -383,7 +385,10 @@ TEST(GlobalLocalizer, ATinyRoomOfANarrowMap) {
   const PolygonMap map({freePolygon(rectangle(0, 0, 6, 4)),
                         freePolygon(rectangle(6.52, 1, 6.57, 1.06)),  // holds no lattice point
                         freePolygon(rectangle(8, 0, 8.4, 0.3))});
-  const GlobalLocalizer localizer(map, oneThread());
+  // Walls 0.3 m apart hold a heading badly, as chance fits do: here the search alone is asked.
+  GlobalLocalizerParams params = oneThread();
+  params.hypotheses.calibration.least_match_probability = 0.0;
+  const GlobalLocalizer localizer(map, params);
   const TPose2D truth(8.18, 0.14, 0.2);
   const auto result = localizer.localize(simulatedScan(map, truth));
   expectConsistent(result);

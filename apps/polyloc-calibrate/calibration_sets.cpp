@@ -1,0 +1,70 @@
+#include "calibration_sets.h"
+
+#include <mrpt_polyloc/evaluation/truth.h>
+#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/mrpt_bridge/scan_files.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace mrpt_polyloc::apps {
+namespace {
+
+/// The words of a line up to a `#`.
+std::vector<std::string> wordsOf(const std::string& line) {
+  std::istringstream text(line.substr(0, line.find('#')));
+  std::vector<std::string> words;
+  for (std::string word; text >> word;) words.push_back(word);
+  return words;
+}
+
+CalibrationSet loadSet(const std::vector<std::string>& words, const std::filesystem::path& folder) {
+  const auto resolve = [&](const std::string& name) { return (folder / name).string(); };
+  CalibrationSet set;
+  set.name = words[0];
+  set.map = resolve(words[1]);
+  if (!std::filesystem::exists(set.map)) throw FormatError(set.map, "", "no such file");
+  set.scans = loadScans(resolve(words[2]));
+  const std::string truth = resolve(words[3]);
+  set.truth = matchTruth(set.scans, loadTum(truth), truth);
+  set.good.assign(set.scans.size(), words.size() < 5);
+  if (words.size() == 5) {
+    for (const std::size_t row : loadRows(resolve(words[4]), set.scans.size())) {
+      set.good[row] = true;
+    }
+  }
+  return set;
+}
+
+}  // namespace
+
+std::vector<CalibrationSet> loadCalibrationSets(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw FormatError(path, "", "no such file, or not readable");
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::vector<CalibrationSet> sets;
+  std::size_t number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    const std::vector<std::string> words = wordsOf(line);
+    if (words.empty()) continue;
+    const std::string place = "line " + std::to_string(number);
+    if (words.size() < 4 || words.size() > 5) {
+      throw FormatError(path, place, "is not NAME MAP SCANS TRUTH [GOOD]");
+    }
+    if (std::any_of(sets.begin(), sets.end(),
+                    [&](const CalibrationSet& set) { return set.name == words[0]; })) {
+      throw FormatError(path, place, "the name " + words[0] + " is taken");
+    }
+    sets.push_back(loadSet(words, folder));
+  }
+  if (sets.size() < 2) {
+    throw FormatError(path, "",
+                      "holds fewer than two sets: there are no scans of another building");
+  }
+  return sets;
+}
+
+}  // namespace mrpt_polyloc::apps

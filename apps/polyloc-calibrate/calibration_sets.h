@@ -1,0 +1,28 @@
+#pragma once
+
+#include <mrpt_polyloc/localization/RangeScan.h>
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace mrpt_polyloc::apps {
+
+/// Scans of one building with their truth: a line of the list of sets, loaded but for its map.
+struct CalibrationSet {
+  std::string name;
+  std::string map;  ///< path
+  std::vector<RangeScan> scans;
+  std::vector<mrpt::math::TPose2D> truth;  ///< of each scan
+  std::vector<bool> good;                  ///< of each scan: whether it agrees with the map
+};
+
+/// Reads a list: `NAME MAP SCANS TRUTH [GOOD]` a line, `#` comments, paths from the list's folder
+/// on, without blanks. Without GOOD all rows are good.
+/// \throws FormatError naming file and line, or the file of a set: fewer than two sets, a name
+/// twice, a file that is not there or not readable
+std::vector<CalibrationSet> loadCalibrationSets(const std::string& path);
+
+}  // namespace mrpt_polyloc::apps

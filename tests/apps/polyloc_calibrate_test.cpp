@@ -1,0 +1,141 @@
+#include "ProgramTest.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace mrpt_polyloc::test {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class PolylocCalibrate : public ProgramTest {
+ protected:
+  /// Three rooms of different shapes with scans of each: sets.txt, and a folder each.
+  void makeSets() const {
+    const auto make = [&](const std::string& name, const std::string& wkt, const char* seed) {
+      const std::string map = write(name + ".wkt", wkt);
+      const Outcome outcome = run("polyloc-simulate", {"--map", map, "-n", "8", "--seed", seed,
+                                                       "--sigma", "0.03", "-o", path(name)});
+      ASSERT_EQ(outcome.code, 0) << outcome.err;
+    };
+    make("hall", "POLYGON((0 0, 9 0, 9 6, 6 6, 6 4, 0 4, 0 0))\n", "1");
+    make("cross", "POLYGON((0 0, 3 0, 3 -2, 5 -2, 5 0, 7 0, 7 3, 4 3, 4 5, 2 5, 2 3, 0 3, 0 0))\n",
+         "2");
+    make("corridor", "POLYGON((0 0, 14 0, 14 2, 8 2, 8 5, 5 5, 5 2, 0 2, 0 0))\n", "3");
+    write("good.txt", "0\n1\n2\n3\n4\n5\n");
+    write("sets.txt",
+          "# three rooms\n"
+          "hall hall.wkt hall/scans.rawlog hall/truth.tum good.txt\n\n"
+          "cross cross.wkt cross/scans.rawlog cross/truth.tum\n"
+          "corridor corridor.wkt corridor/scans.rawlog corridor/truth.tum  # the last\n");
+  }
+
+  Outcome calibrate(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {path("sets.txt"), "-o", path("out"), "--cluttered", "5"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run("polyloc-calibrate", arguments);
+  }
+
+  void expectFailure(const std::string& list, const std::string& file, const std::string& place) {
+    write("sets.txt", list);
+    const Outcome outcome = calibrate();
+    EXPECT_EQ(outcome.code, 1) << list;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("polyloc-calibrate: "), HasSubstr(file)));
+    EXPECT_THAT(outcome.err, HasSubstr(place));
+    EXPECT_FALSE(std::filesystem::exists(path("out"))) << list;
+  }
+};
+
+TEST_F(PolylocCalibrate, WritesConstantsAndCurvesThatTheOthersRead) {
+  makeSets();
+  const Outcome outcome = calibrate({"--header", path("constants.h"), "--threads", "2"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(files("out"), ElementsAre("calibration.json", "reliability.csv", "reliability.svg",
+                                        "report.json", "roc.csv", "roc.svg"));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("foreign scans refused"), HasSubstr("left out")));
+  const json report = json::parse(readFile(path("out/report.json")));
+  EXPECT_EQ(report["calibration"], json::parse(readFile(path("out/calibration.json"))));
+  EXPECT_EQ(report["fitted"]["good"], 22);
+  EXPECT_EQ(report["fitted"]["foreign"], 48);
+  EXPECT_EQ(report["fitted"]["cluttered"], 15);
+  EXPECT_GT(report["fitted"]["roc_area"], 0.9);
+  EXPECT_THAT(readFile(path("constants.h")), AllOf(HasSubstr("kWeightDecay"), HasSubstr("cross")));
+  EXPECT_EQ(linesOf(readFile(path("out/roc.csv"))).front(), "kind,threshold,lost,refused");
+  EXPECT_EQ(linesOf(readFile(path("out/reliability.csv"))).size(), 1U + 2 * 6U);
+  for (const char* picture : {"out/roc.svg", "out/reliability.svg"}) {
+    EXPECT_THAT(readFile(path(picture)), AllOf(HasSubstr("<svg"), HasSubstr("</svg>")));
+  }
+
+  const Outcome evaluated =
+      run("polyloc-eval", {"--map", path("hall.wkt"), "--scans", path("hall/scans.rawlog"),
+                           "--truth", path("hall/truth.tum"), "--calibration",
+                           path("out/calibration.json"), "-o", path("eval")});
+  EXPECT_EQ(evaluated.code, 0) << evaluated.err;
+}
+
+TEST_F(PolylocCalibrate, ConstantsDoNotDependOnThreads) {
+  makeSets();
+  const auto constants = [&](const char* threads) {
+    EXPECT_EQ(calibrate({"--threads", threads}).code, 0);
+    return readFile(path("out/calibration.json"));
+  };
+  EXPECT_EQ(constants("1"), constants("2"));
+}
+
+TEST_F(PolylocCalibrate, ACalibrationDecidesWhatIsRefused) {
+  makeSets();
+  ASSERT_EQ(calibrate().code, 0);
+  json calibration = json::parse(readFile(path("out/calibration.json")));
+  const auto refused = [&](double least) {
+    calibration["least_match_probability"] = least;
+    const std::string file = write("changed.json", calibration.dump());
+    const Outcome outcome = run(
+        "polyloc-eval", {"--map", path("hall.wkt"), "--scans", path("hall/scans.rawlog"), "--truth",
+                         path("hall/truth.tum"), "--calibration", file, "-o", path("eval")});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return json::parse(readFile(path("eval/summary.json")))["status"]["no_match"].get<int>();
+  };
+  EXPECT_EQ(refused(0.0), 0);
+  calibration["match_intercept"] = -1e6;
+  EXPECT_EQ(refused(0.5), 8);
+}
+
+TEST_F(PolylocCalibrate, BadListsNameFileAndPlace) {
+  makeSets();
+  const std::string hall = "hall hall.wkt hall/scans.rawlog hall/truth.tum good.txt\n";
+  expectFailure("", "sets.txt", "fewer than two sets");
+  expectFailure(hall, "sets.txt", "fewer than two sets");
+  expectFailure(hall + "cross cross.wkt\n", "sets.txt", "line 2");
+  expectFailure(hall + "\n" + hall, "sets.txt", "line 3");
+  expectFailure(hall + "x gone.wkt cross/scans.rawlog cross/truth.tum\n", "gone.wkt",
+                "no such file");
+  expectFailure(hall + "x cross.wkt gone.rawlog cross/truth.tum\n", "gone.rawlog", "");
+  expectFailure(hall + "x cross.wkt cross/scans.rawlog cross/truth.tum sets.txt\n", "sets.txt",
+                "line 1");
+  const Outcome outcome = run("polyloc-calibrate", {path("gone.txt"), "-o", path("out")});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("gone.txt"));
+}
+
+TEST_F(PolylocCalibrate, ABadCalibrationFileFails) {
+  makeSets();
+  const auto evaluate = [&](const std::string& calibration) {
+    return run("polyloc-eval",
+               {"--map", path("hall.wkt"), "--scans", path("hall/scans.rawlog"), "--truth",
+                path("hall/truth.tum"), "--calibration", calibration, "-o", path("eval")});
+  };
+  for (const std::string& file :
+       {path("gone.json"), write("bad.json", "{\"weight_decay\": 1}"), write("not.json", "x")}) {
+    const Outcome outcome = evaluate(file);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr(file));
+  }
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc::test
