@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
+#include <mrpt_polyloc/mrpt_bridge/numbers.h>
 
 #include <algorithm>
 
@@ -14,6 +15,15 @@ void requireKnownKeys(const mrpt::config::CConfigFileBase& source, const std::st
       throw InvalidParamsError("[" + section + "]: unknown option '" + key + "'");
     }
   }
+}
+
+double readNumber(const mrpt::config::CConfigFileBase& source, const std::string& section,
+                  const std::string& name, double otherwise) {
+  const std::string text = source.read_string(section, name, "");
+  if (text.empty()) return otherwise;
+  const auto number = parseNumber(text);
+  if (number) return *number;
+  throw InvalidParamsError("[" + section + "]: " + name + " is '" + text + "', not a number");
 }
 
 }  // namespace mrpt_polyloc

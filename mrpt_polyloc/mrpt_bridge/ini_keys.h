@@ -12,4 +12,9 @@ namespace mrpt_polyloc {
 void requireKnownKeys(const mrpt::config::CConfigFileBase& source, const std::string& section,
                       const std::vector<std::string>& known);
 
+/// The number that an option spells, or `otherwise` where it is not given or empty. MRPT's
+/// read_double() takes a word for 0. \throws InvalidParamsError naming section and option
+double readNumber(const mrpt::config::CConfigFileBase& source, const std::string& section,
+                  const std::string& name, double otherwise);
+
 }  // namespace mrpt_polyloc
