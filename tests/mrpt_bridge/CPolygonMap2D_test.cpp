@@ -64,7 +64,8 @@ TEST(PolygonMap2D, IsFiniteForScansAndPosesThatSayNothing) {
   auto scan = castScan(room(), 2, 2, 0.5);
   EXPECT_EQ(map.computeObservationLikelihood(CObservation2DRangeScan(), CPose3D()), 0.0);
   const double far = map.computeObservationLikelihood(scan, CPose3D(1e6, 0, 0, 0, 0, 0));
-  EXPECT_NEAR(far, -20.0 * 0.6 / 0.1, 1e-3);
+  EXPECT_NEAR(far, -map.likelihoodOptions.independent_beams * 0.6 / map.likelihoodOptions.sigma,
+              1e-3);
   // Readings that are no ranges say nothing; of a scan that has some, the others count.
   const CPose3D pose(2, 2, 0, 0.5, 0, 0);
   const float none[] = {std::nanf(""), HUGE_VALF, -HUGE_VALF, -1.0F, 0.0F};
@@ -77,6 +78,17 @@ TEST(PolygonMap2D, IsFiniteForScansAndPosesThatSayNothing) {
     EXPECT_EQ(map.computeObservationLikelihood(scan, pose), 0.0);
     EXPECT_EQ(map.computeLikelihoods(scan, {{2, 2, 0.5}}), std::vector<double>{0.0});
   }
+}
+
+TEST(PolygonMap2D, SaysNothingWhereMrptsOptionForbidsIt) {
+  CPolygonMap2D map(room());
+  const auto scan = castScan(room(), 2, 2, 0.5);
+  const CPose3D elsewhere(3, 1, 0, 1.5, 0, 0), nowhere(std::nan(""), 0, 0, 0, 0, 0);
+  EXPECT_LT(map.computeObservationLikelihood(scan, elsewhere), -10.0);
+  EXPECT_NEAR(map.computeObservationLikelihood(scan, nowhere),
+              -map.likelihoodOptions.independent_beams * 0.6 / map.likelihoodOptions.sigma, 1e-3);
+  map.genericMapParams.enableObservationLikelihood = false;
+  EXPECT_EQ(map.computeObservationLikelihood(scan, elsewhere), 0.0);
 }
 
 TEST(PolygonMap2D, RefusesASensorThatIsNotPlanar) {
@@ -102,7 +114,7 @@ TEST(PolygonMap2D, ThePolarMetricIsAMeanOverTheHits) {
   for (std::size_t i = 0; i < 61; ++i) scan.setScanRange(i, scan.getScanRange(i) + 0.1F);
   const CPose3D pose(2, 2, 0, 0.5, 0, 0);
   const double all = map.computeObservationLikelihood(scan, pose);
-  EXPECT_NEAR(all, -20.0 * 0.01 / 0.02, 0.01);
+  EXPECT_NEAR(all, -map.likelihoodOptions.independent_beams * 0.01 / 0.02, 0.01);
   for (std::size_t i = 0; i < 30; ++i) scan.setScanRangeValidity(i, false);  // no-returns
   EXPECT_NEAR(map.computeObservationLikelihood(scan, pose), all, 0.01);
   for (std::size_t i = 30; i < 61; ++i) scan.setScanRangeValidity(i, false);

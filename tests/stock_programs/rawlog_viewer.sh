@@ -5,6 +5,7 @@
 set -euo pipefail
 library=$1 write_map_log=$2 room=$3
 scratch=$(mktemp -d)
+# shellcheck source=/dev/null
 . "$(dirname "${BASH_SOURCE[0]}")/virtual_display.sh"
 require RawLogViewer Xvfb xdotool
 trap 'end_display; rm -rf "$scratch"' EXIT
@@ -15,10 +16,11 @@ start_display
 # close_dialog TITLE: dialogs swallow all clicks. Whether there was one of that title.
 close_dialog() {
   wait_until 60 find_window "$1" || return 1
+  # shellcheck disable=SC2154
   xdotool windowfocus "$window" key Escape
   wait_until 30 is_gone "$window"
 }
-is_gone() { ! xdotool search --onlyvisible --name . 2> /dev/null | grep -qx "$1"; }
+is_gone() { ! grep -qx "$1" <<< "$(xdotool search --onlyvisible --name . 2> /dev/null)"; }
 
 # select_row SECONDS: clicks on the rows of the tree on the left, from above (their heights go with
 # the fonts that are installed), until the map is seen; that long after each click.

@@ -4,6 +4,7 @@
 set -euo pipefail
 polyloc_map=$1 room=$2
 scratch=$(mktemp -d)
+# shellcheck source=/dev/null
 . "$(dirname "${BASH_SOURCE[0]}")/virtual_display.sh"
 require SceneViewer3D Xvfb xdotool
 trap 'end_display; rm -rf "$scratch"' EXIT

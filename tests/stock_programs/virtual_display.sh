@@ -1,6 +1,7 @@
 # virtual_display.sh: sourced by the tests of programs with windows. A display of our own, without a
 # window manager, whose pixels are read from the file that Xvfb keeps them in.
 # Needs $scratch, a folder; what runs in the display is ended by end_display.
+# shellcheck shell=bash disable=SC2154
 
 # require NAME...: skips the test (77) where a program is not installed.
 require() {
@@ -60,7 +61,8 @@ fill_screen() { xdotool windowmove "$main_window" 0 0 windowsize "$main_window" 
 
 # find_window TITLE: the first visible window whose title begins so, as $window.
 find_window() {
-  window=$(xdotool search --onlyvisible --name "^$1" 2> /dev/null | head -1)
+  window=$(xdotool search --onlyvisible --name "^$1" 2> /dev/null) || return 1
+  window=${window%%$'\n'*}
   [ -n "$window" ]
 }
 
