@@ -165,16 +165,18 @@ void CPolygonMap2D::TMapDefinition::loadFromConfigFile_map_specific(
       {"file", "max_wall_gap", "tolerance_cells", "min_component_area", "max_filled_unknown_area",
        "enableSaveAs3DObject", "enableObservationLikelihood", "enableObservationInsertion"});
   file = source.read_string(section, "file", file);
-  if (file.empty()) throw InvalidParamsError("[" + section + "]: no 'file' is given");
-  const auto read = [&](const char* name, double& value) {
-    value = readNumber(source, section, name, value);
-  };
-  read("max_wall_gap", grid.cleaning.max_wall_gap);
-  read("tolerance_cells", grid.tracing.tolerance_cells);
-  read("min_component_area", grid.tracing.min_component_area);
-  read("max_filled_unknown_area", grid.tracing.max_filled_unknown_area);
-  grid.cleaning.check();
-  grid.tracing.check();
+  if (file.empty()) throw InvalidParamsError("no 'file' is given in section '" + section + "'");
+  namingSection(section, [&] {
+    const auto read = [&](const char* name, double& value) {
+      value = readNumber(source, section, name, value);
+    };
+    read("max_wall_gap", grid.cleaning.max_wall_gap);
+    read("tolerance_cells", grid.tracing.tolerance_cells);
+    read("min_component_area", grid.tracing.min_component_area);
+    read("max_filled_unknown_area", grid.tracing.max_filled_unknown_area);
+    grid.cleaning.check();
+    grid.tracing.check();
+  });
   likelihood.loadFromConfigFile(source, prefix + "_likelihoodOpts");
 }
 

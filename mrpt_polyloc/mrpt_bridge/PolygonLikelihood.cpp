@@ -138,21 +138,23 @@ void TLikelihoodOptions::loadFromConfigFile(const mrpt::config::CConfigFileBase&
                    {"metric", "sigma", "decimation", "independent_beams", "tau_short", "tau_long",
                     "tau_open", "tau_none", "none_share"});
   metric = source.read_string(section, "metric", metric);
-  const auto read = [&](const char* name, double& value) {
-    value = readNumber(source, section, name, value);
-  };
-  double every = decimation;
-  read("decimation", every);
-  requireInRange("decimation", every, 1.0, 1e6);
-  decimation = static_cast<unsigned>(every);
-  read("sigma", sigma);
-  read("independent_beams", independent_beams);
-  read("tau_short", cost.tau_short);
-  read("tau_long", cost.tau_long);
-  read("tau_open", cost.tau_open);
-  read("tau_none", cost.tau_none);
-  read("none_share", cost.none_share);
-  check();
+  namingSection(section, [&] {
+    const auto read = [&](const char* name, double& value) {
+      value = readNumber(source, section, name, value);
+    };
+    double every = decimation;
+    read("decimation", every);
+    requireInRange("decimation", every, 1.0, 1e6);
+    decimation = static_cast<unsigned>(every);
+    read("sigma", sigma);
+    read("independent_beams", independent_beams);
+    read("tau_short", cost.tau_short);
+    read("tau_long", cost.tau_long);
+    read("tau_open", cost.tau_open);
+    read("tau_none", cost.tau_none);
+    read("none_share", cost.none_share);
+    check();
+  });
 }
 
 void TLikelihoodOptions::dumpToTextStream(std::ostream& out) const {

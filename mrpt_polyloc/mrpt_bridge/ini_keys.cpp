@@ -1,4 +1,3 @@
-#include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
 #include <mrpt_polyloc/mrpt_bridge/numbers.h>
 
@@ -23,7 +22,7 @@ double readNumber(const mrpt::config::CConfigFileBase& source, const std::string
   if (text.empty()) return otherwise;
   const auto number = parseNumber(text);
   if (number) return *number;
-  throw InvalidParamsError("[" + section + "]: " + name + " is '" + text + "', not a number");
+  throw InvalidParamsError(name + " is '" + text + "', not a number");
 }
 
 }  // namespace mrpt_polyloc

@@ -58,11 +58,6 @@ TEST(PolygonMap2D, IsMadeByAnIniCopiedBySerializationAndKeptByClear) {
 TEST(PolygonMap2D, ComplainsOfABadIni) {
   const test::TempFile good(".geojson", toGeoJson(room())), broken(".geojson", "{");
   const auto make = [](const std::string& ini) { mrpt::maps::CMultiMetricMap maps(fromIni(ini)); };
-  EXPECT_ANY_THROW(make(iniFor("")));
-  EXPECT_ANY_THROW(make(iniFor("/nowhere/map.geojson")));
-  EXPECT_ANY_THROW(make(iniFor(broken.path())));
-  EXPECT_ANY_THROW(make(iniFor(good.path(), "sigmma=0.2")));
-  EXPECT_ANY_THROW(make(iniFor(good.path(), "sigma=-1")));
   EXPECT_NO_THROW(make(iniFor(good.path())));
   // The messages name the option or the file.
   const auto complaint = [&](const std::string& ini) {
@@ -78,14 +73,18 @@ TEST(PolygonMap2D, ComplainsOfABadIni) {
                           "decimation=0", "decimation=none", "tau_short=no", "tau_short=-0.1",
                           "tau_long=-1", "tau_open=-1", "tau_none=0.1m", "none_share=-0.5"}) {
     const std::string name(bad, std::string(bad).find('='));
-    EXPECT_THAT(complaint(iniFor(good.path(), bad)), testing::HasSubstr(name)) << bad;
+    EXPECT_THAT(complaint(iniFor(good.path(), bad)),
+                testing::AllOf(testing::HasSubstr("_likelihoodOpts'"), testing::HasSubstr(name)))
+        << bad;
   }
   const std::string section = "[M_polygonMap2D_00_creationOpts]\n";
   const auto created = [&](const std::string& line) {
     return "[M]\npolygonMap2D_count=1\n" + section + "file=" + good.path() + "\n" + line + "\n";
   };
   EXPECT_THAT(complaint(created("max_gap=1")), testing::HasSubstr("'max_gap'"));
-  EXPECT_THAT(complaint(created("tolerance_cells=-1")), testing::HasSubstr("tolerance_cells"));
+  EXPECT_THAT(
+      complaint(created("tolerance_cells=-1")),
+      testing::AllOf(testing::HasSubstr("_creationOpts'"), testing::HasSubstr("tolerance_cells")));
   EXPECT_THAT(complaint("[M]\npolygonMap2D_count=1\n"), testing::HasSubstr("'file'"));
 }
 
