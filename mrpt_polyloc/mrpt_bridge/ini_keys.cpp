@@ -18,7 +18,10 @@ void requireKnownKeys(const mrpt::config::CConfigFileBase& source, const std::st
 
 double readNumber(const mrpt::config::CConfigFileBase& source, const std::string& section,
                   const std::string& name, double otherwise) {
-  const std::string text = source.read_string(section, name, "");
+  std::string text = source.read_string(section, name, "");
+  // MRPT takes comments off that begin with // alone.
+  text = text.substr(0, text.find_first_of(";#"));
+  text = text.substr(0, text.find_last_not_of(" \t") + 1);
   if (text.empty()) return otherwise;
   const auto number = parseNumber(text);
   if (number) return *number;
