@@ -14,7 +14,14 @@ packages=(
 )
 case "${1-}" in
   "") ;;
-  tests) packages+=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 mrpt-apps) ;;
+  # mrpt-apps: programs that load this library; their windows open in xvfb, drawn by software. The
+  # slam library is for an example alone.
+  tests)
+    packages+=(
+      libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 libmrpt-slam-dev
+      mrpt-apps xvfb xdotool libgl1-mesa-dri
+    )
+    ;;
   *)
     echo "usage: install-debian-packages.sh [tests]" >&2
     exit 2

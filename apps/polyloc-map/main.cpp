@@ -7,6 +7,7 @@
 #include "../common/parsing.h"
 #include "cell_report.h"
 #include "map_report.h"
+#include "map_scene.h"
 #include "view_text.h"
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/geometry/polygon_files.h>
@@ -27,6 +28,7 @@ struct Options {
   std::string input;
   std::string output;
   std::string svg;
+  std::string scene;
   std::string view;
   bool check = false;
   bool cells = false;
@@ -43,6 +45,8 @@ void addOptions(CLI::App& cli, Options& options) {
           "relative to the point, as polyloc-localize --method exact reads it")
       ->type_name("X,Y");
   addText(cli, "--svg", options.svg, "Draw the map")->type_name("PIC.svg");
+  addText(cli, "--3dscene", options.scene, "Write the map as a scene for MRPT's SceneViewer3D")
+      ->type_name("OUT.3Dscene");
   cli.add_flag("--check", options.check,
                "List the defects of the map; exit 1 if there is any, repaired or not");
   CLI::Option* const cells = cli.add_flag(
@@ -88,6 +92,7 @@ void writeOutputs(const Options& options, const PolygonMap& map, const CellRepor
     if (cells != nullptr) drawCells(canvas, *cells);
     files.add(options.svg, canvas.text());
   }
+  if (!options.scene.empty()) files.add(options.scene, sceneText(map));
   files.commit();
 }
 
@@ -125,6 +130,7 @@ int convert(const Program& program, const Options& options) {
   }
   requireWritable(options.output);
   requireWritable(options.svg);
+  requireWritable(options.scene);
   const RepairedMap loaded = load(program, options);
   std::optional<CellReport> cells;
   if (options.cells) cells.emplace(loaded.map, options.range.value_or(kUnlimitedRange));

@@ -45,11 +45,14 @@ class RobustCost {
         tau_none_(static_cast<float>(params.tau_none)),
         none_share_(static_cast<float>(params.none_share)) {}
 
-  /// The cost of one hit, or the no-return of one beam [m].
+  /// The cost of one hit, or the no-return of one beam [m]. All cases are computed and one is
+  /// chosen, so that loops over beams become vector code.
   float hit(float z, float w, float o) const {
-    if (z >= w) return std::min(z - w, tau_long_);
-    if (z >= o) return std::min(w - z, tau_open_);
-    return std::min(std::min(o, w) - z, tau_short_);
+    const float beyond_wall = std::min(z - w, tau_long_);
+    const float beyond_open = std::min(w - z, tau_open_);
+    const float before_both = std::min(std::min(o, w) - z, tau_short_);
+    const float before_wall = z >= o ? beyond_open : before_both;
+    return z >= w ? beyond_wall : before_wall;
   }
   float noReturn(float max_range, float w, float o) const {
     return w < none_share_ * max_range && !(o < w) ? tau_none_ : 0.0F;

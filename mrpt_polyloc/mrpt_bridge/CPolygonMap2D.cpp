@@ -1,19 +1,18 @@
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/geometry/geojson.h>
 #include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
-#include <mrpt_polyloc/mrpt_bridge/NearestWalls.h>
+#include <mrpt_polyloc/mrpt_bridge/PolygonMapContent.h>
 #include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
-#include <mrpt_polyloc/mrpt_bridge/mrpt_compat.h>
+#include <mrpt_polyloc/mrpt_bridge/map_lines.h>
 #include <mrpt_polyloc/mrpt_bridge/wall_matching.h>
 
-#include <mrpt/opengl/CSetOfLines.h>
-#include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 MAP_DEFINITION_REGISTER("mrpt_polyloc::CPolygonMap2D,polygonMap2D", mrpt_polyloc::CPolygonMap2D)
@@ -24,44 +23,27 @@ using mrpt::obs::CObservation2DRangeScan;
 
 IMPLEMENTS_SERIALIZABLE(CPolygonMap2D, mrpt::maps::CMetricMap, mrpt_polyloc)
 
-struct CPolygonMap2D::Content {
-  explicit Content(PolygonMap polygons)
-      : map(std::move(polygons)), predictor(Triangulation(map)), walls(map) {}
-  PolygonMap map;
-  RangePredictor predictor;
-  NearestWalls walls;
-};
-
 namespace {
 
-/// Calls visit(a, b, kind, is_beyond) for all edges.
-template <class Visitor>
-void forEachEdge(const PolygonMap& map, const Visitor& visit) {
-  for (const Ring* ring : map.rings()) {
-    for (std::size_t i = 0; i < ring->size(); ++i) {
-      visit(ring->vertices[i], ring->vertices[(i + 1) % ring->size()], ring->kinds[i], false);
-    }
-  }
-  for (const Polyline& line : map.wallsBeyond()) {
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      visit(line[i], line[i + 1], EdgeKind::wall, true);
-    }
-  }
+const mrpt::maps::CMetricMap& notNull(const mrpt::maps::CMetricMap* other) {
+  if (other == nullptr) throw std::invalid_argument("CPolygonMap2D: the map to match with is null");
+  return *other;
 }
 
 }  // namespace
 
 void CPolygonMap2D::setMap(PolygonMap map) {
-  content_ = std::make_shared<const Content>(std::move(map));
+  content_ = std::make_shared<const PolygonMapContent>(std::move(map));
+  content_->predictor();
 }
 
 const PolygonMap* CPolygonMap2D::map() const {
-  return content_ ? &content_->map : nullptr;
+  return content_ ? &content_->map() : nullptr;
 }
 
 std::string CPolygonMap2D::asString() const {
   if (!content_) return "CPolygonMap2D, empty";
-  return "CPolygonMap2D, " + std::to_string(content_->map.vertexCount()) + " vertices";
+  return "CPolygonMap2D, " + std::to_string(content_->map().vertexCount()) + " vertices";
 }
 
 bool CPolygonMap2D::internal_insertObservation(const mrpt::obs::CObservation&,
@@ -73,7 +55,7 @@ double CPolygonMap2D::internal_computeObservationLikelihood(
     const mrpt::obs::CObservation& observation, const mrpt::poses::CPose3D& taken_from) const {
   const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation);
   if (!scan || !content_) return 0.0;
-  return scanLogLikelihood(content_->predictor, *scan,
+  return scanLogLikelihood(content_->predictor(), *scan,
                            {taken_from.x(), taken_from.y(), taken_from.yaw()}, likelihoodOptions);
 }
 
@@ -81,7 +63,7 @@ std::vector<double> CPolygonMap2D::computeLikelihoods(
     const CObservation2DRangeScan& scan,
     const std::vector<mrpt::math::TPose2D>& poses_map_robot) const {
   if (!content_) return std::vector<double>(poses_map_robot.size(), 0.0);
-  return scanLogLikelihoods(content_->predictor, scan, poses_map_robot, likelihoodOptions);
+  return scanLogLikelihoods(content_->predictor(), scan, poses_map_robot, likelihoodOptions);
 }
 
 bool CPolygonMap2D::internal_canComputeObservationLikelihood(
@@ -91,29 +73,26 @@ bool CPolygonMap2D::internal_canComputeObservationLikelihood(
 
 void CPolygonMap2D::getVisualizationInto(mrpt::opengl::CSetOfObjects& out) const {
   if (!content_ || !genericMapParams.enableSaveAs3DObject) return;
-  const auto walls = mrpt::opengl::CSetOfLines::Create();
-  const auto open = mrpt::opengl::CSetOfLines::Create();
-  const auto beyond = mrpt::opengl::CSetOfLines::Create();
-  walls->setColor_u8(20, 30, 90);
-  open->setColor_u8(255, 140, 0);
-  beyond->setColor_u8(130, 130, 130);
-  forEachEdge(content_->map, [&](const TPoint2D& a, const TPoint2D& b, EdgeKind kind, bool far) {
-    const auto& lines = far ? beyond : kind == EdgeKind::open ? open : walls;
-    lines->appendLine(a.x, a.y, 0.0, b.x, b.y, 0.0);
-  });
-  for (const auto& lines : {walls, open, beyond}) out.insert(lines);
+  addMapLines(content_->map(), out);
 }
 
 void CPolygonMap2D::saveMetricMapRepresentationToFile(const std::string& prefix) const {
   if (!content_) return;
   std::ofstream file(prefix + ".geojson", std::ios::binary);
-  file << toGeoJson(content_->map) << std::flush;
+  file << toGeoJson(content_->map()) << std::flush;
   if (!file) throw std::runtime_error(prefix + ".geojson: cannot be written");
+}
+
+mrpt::math::TBoundingBoxf CPolygonMap2D::boundingBox() const {
+  if (!content_) return {};
+  const BoundingBox& box = content_->map().boundingBox();
+  return {{static_cast<float>(box.min.x), static_cast<float>(box.min.y), 0.0F},
+          {static_cast<float>(box.max.x), static_cast<float>(box.max.y), 0.0F}};
 }
 
 float CPolygonMap2D::squareDistanceToClosestCorrespondence(float x, float y) const {
   const auto nearest =
-      content_ ? content_->walls.nearest({static_cast<double>(x), static_cast<double>(y)})
+      content_ ? content_->walls().nearest({static_cast<double>(x), static_cast<double>(y)})
                : std::nullopt;
   return nearest ? static_cast<float>(nearest->squared_distance)
                  : std::numeric_limits<float>::infinity();
@@ -134,14 +113,16 @@ void CPolygonMap2D::determineMatching3D(const mrpt::maps::CMetricMap* other,
                                         mrpt::maps::TMatchingExtraResults& results) const {
   pairs.clear();
   results = {};
-  if (content_) matchWalls(content_->walls, *other, other_pose, params, pairs, results);
+  const mrpt::maps::CMetricMap& points = notNull(other);
+  if (content_) matchWalls(content_->walls(), points, other_pose, params, pairs, results);
 }
 
 float CPolygonMap2D::compute3DMatchingRatio(const mrpt::maps::CMetricMap* other,
                                             const mrpt::poses::CPose3D& other_pose,
                                             const mrpt::maps::TMatchingRatioParams& params) const {
+  const mrpt::maps::CMetricMap& points = notNull(other);
   if (!content_) return 0.0F;
-  return wallMatchingRatio(content_->walls, *other, other_pose,
+  return wallMatchingRatio(content_->walls(), points, other_pose,
                            static_cast<double>(params.maxDistForCorr));
 }
 
@@ -152,7 +133,7 @@ uint8_t CPolygonMap2D::serializeGetVersion() const {
 
 void CPolygonMap2D::serializeTo(mrpt::serialization::CArchive& out) const {
   const TLikelihoodOptions& o = likelihoodOptions;
-  out << (content_ ? toGeoJson(content_->map) : std::string()) << o.metric << o.sigma
+  out << (content_ ? PolygonMapContent::textOf(content_) : std::string()) << o.metric << o.sigma
       << static_cast<uint32_t>(o.decimation) << o.independent_beams << o.cost.tau_short
       << o.cost.tau_long << o.cost.tau_open << o.cost.tau_none << o.cost.none_share;
   out << genericMapParams;
@@ -163,14 +144,15 @@ void CPolygonMap2D::serializeFrom(mrpt::serialization::CArchive& in, uint8_t ver
   std::string text;
   uint32_t decimation = 1;
   TLikelihoodOptions o;
+  mrpt::maps::TMapGenericParams generic;
   in >> text >> o.metric >> o.sigma >> decimation >> o.independent_beams >> o.cost.tau_short >>
       o.cost.tau_long >> o.cost.tau_open >> o.cost.tau_none >> o.cost.none_share;
-  in >> genericMapParams;
+  in >> generic;
   o.decimation = decimation;
   o.check();
+  content_ = text.empty() ? nullptr : PolygonMapContent::fromText(text);
   likelihoodOptions = o;
-  content_.reset();
-  if (!text.empty()) setMap(repairMap(parseGeoJson(text, "stored CPolygonMap2D")).map);
+  genericMapParams = generic;
 }
 
 CPolygonMap2D::TMapDefinition::TMapDefinition() = default;
@@ -183,14 +165,18 @@ void CPolygonMap2D::TMapDefinition::loadFromConfigFile_map_specific(
       {"file", "max_wall_gap", "tolerance_cells", "min_component_area", "max_filled_unknown_area",
        "enableSaveAs3DObject", "enableObservationLikelihood", "enableObservationInsertion"});
   file = source.read_string(section, "file", file);
-  if (file.empty()) throw InvalidParamsError("[" + section + "]: no 'file' is given");
-  const auto read = [&](const char* name, double& value) {
-    value = source.read_double(section, name, value);
-  };
-  read("max_wall_gap", grid.cleaning.max_wall_gap);
-  read("tolerance_cells", grid.tracing.tolerance_cells);
-  read("min_component_area", grid.tracing.min_component_area);
-  read("max_filled_unknown_area", grid.tracing.max_filled_unknown_area);
+  if (file.empty()) throw InvalidParamsError("no 'file' is given in section '" + section + "'");
+  namingSection(section, [&] {
+    const auto read = [&](const char* name, double& value) {
+      value = readNumber(source, section, name, value);
+    };
+    read("max_wall_gap", grid.cleaning.max_wall_gap);
+    read("tolerance_cells", grid.tracing.tolerance_cells);
+    read("min_component_area", grid.tracing.min_component_area);
+    read("max_filled_unknown_area", grid.tracing.max_filled_unknown_area);
+    grid.cleaning.check();
+    grid.tracing.check();
+  });
   likelihood.loadFromConfigFile(source, prefix + "_likelihoodOpts");
 }
 

@@ -3,8 +3,10 @@
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/mrpt_bridge/PolygonLikelihood.h>
 #include <mrpt_polyloc/mrpt_bridge/map_files.h>
+#include <mrpt_polyloc/mrpt_bridge/mrpt_compat.h>
 
 #include <mrpt/maps/CMetricMap.h>
+#include <mrpt/math/TBoundingBox.h>
 
 #include <memory>
 #include <optional>
@@ -13,11 +15,15 @@
 
 namespace mrpt_polyloc {
 
+class PolygonMapContent;
+
 /// A polygon map as a metric map of MRPT (alias `polygonMap2D` in ini files): the likelihood of
 /// laser scans for any of its filters.
 ///
 /// The map is given, not built: observations are not inserted, and clear() keeps it, for
-/// loadFromSimpleMap() clears all maps first. Const calls are thread-safe. Copies share the map.
+/// loadFromSimpleMap() clears all maps first. Const calls are thread-safe. Copies share the map
+/// and its index, also those that MRPT makes by storing and loading within a process; one that is
+/// loaded otherwise is indexed when it first weighs a scan.
 class CPolygonMap2D : public mrpt::maps::CMetricMap {
   DEFINE_SERIALIZABLE(CPolygonMap2D, mrpt_polyloc)
 
@@ -45,9 +51,12 @@ class CPolygonMap2D : public mrpt::maps::CMetricMap {
   /// Writes PREFIX.geojson, which loadMap() reads; nothing for an empty map.
   /// \throws std::runtime_error if it cannot be written
   void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
+  /// Of free space and walls beyond [m], flat at z = 0; all 0 for an empty map.
+  mrpt::math::TBoundingBoxf boundingBox() const POLYLOC_OVERRIDE_FROM_2_11_3;
   /// To the nearest wall or wall beyond [m2]; infinity if there is none. About O(log n).
   float squareDistanceToClosestCorrespondence(float x, float y) const override;
   /// ICP's pairs with the points of another map, which must be a points map: see matchWalls().
+  /// \throws std::invalid_argument if it is null or no points map
   void determineMatching2D(const mrpt::maps::CMetricMap* other,
                            const mrpt::poses::CPose2D& other_pose,
                            mrpt::tfest::TMatchingPairList& pairs,
@@ -64,8 +73,6 @@ class CPolygonMap2D : public mrpt::maps::CMetricMap {
                                const mrpt::maps::TMatchingRatioParams& params) const override;
 
  private:
-  struct Content;
-
   void internal_clear() override {}
   bool internal_insertObservation(
       const mrpt::obs::CObservation& observation,
@@ -76,7 +83,7 @@ class CPolygonMap2D : public mrpt::maps::CMetricMap {
   bool internal_canComputeObservationLikelihood(
       const mrpt::obs::CObservation& observation) const override;
 
-  std::shared_ptr<const Content> content_;
+  std::shared_ptr<const PolygonMapContent> content_;
 
   MAP_DEFINITION_START(CPolygonMap2D)
   std::string file;    ///< any map that loadMap() reads

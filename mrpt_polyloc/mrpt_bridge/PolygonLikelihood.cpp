@@ -138,17 +138,23 @@ void TLikelihoodOptions::loadFromConfigFile(const mrpt::config::CConfigFileBase&
                    {"metric", "sigma", "decimation", "independent_beams", "tau_short", "tau_long",
                     "tau_open", "tau_none", "none_share"});
   metric = source.read_string(section, "metric", metric);
-  sigma = source.read_double(section, "sigma", sigma);
-  const double every = source.read_double(section, "decimation", decimation);
-  requireInRange("decimation", every, 1.0, 1e6);
-  decimation = static_cast<unsigned>(every);
-  independent_beams = source.read_double(section, "independent_beams", independent_beams);
-  cost.tau_short = source.read_double(section, "tau_short", cost.tau_short);
-  cost.tau_long = source.read_double(section, "tau_long", cost.tau_long);
-  cost.tau_open = source.read_double(section, "tau_open", cost.tau_open);
-  cost.tau_none = source.read_double(section, "tau_none", cost.tau_none);
-  cost.none_share = source.read_double(section, "none_share", cost.none_share);
-  check();
+  namingSection(section, [&] {
+    const auto read = [&](const char* name, double& value) {
+      value = readNumber(source, section, name, value);
+    };
+    double every = decimation;
+    read("decimation", every);
+    requireInRange("decimation", every, 1.0, 1e6);
+    decimation = static_cast<unsigned>(every);
+    read("sigma", sigma);
+    read("independent_beams", independent_beams);
+    read("tau_short", cost.tau_short);
+    read("tau_long", cost.tau_long);
+    read("tau_open", cost.tau_open);
+    read("tau_none", cost.tau_none);
+    read("none_share", cost.none_share);
+    check();
+  });
 }
 
 void TLikelihoodOptions::dumpToTextStream(std::ostream& out) const {

@@ -1,5 +1,5 @@
-#include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
+#include <mrpt_polyloc/mrpt_bridge/numbers.h>
 
 #include <algorithm>
 
@@ -14,6 +14,18 @@ void requireKnownKeys(const mrpt::config::CConfigFileBase& source, const std::st
       throw InvalidParamsError("[" + section + "]: unknown option '" + key + "'");
     }
   }
+}
+
+double readNumber(const mrpt::config::CConfigFileBase& source, const std::string& section,
+                  const std::string& name, double otherwise) {
+  std::string text = source.read_string(section, name, "");
+  // MRPT takes comments off that begin with // alone.
+  text = text.substr(0, text.find_first_of(";#"));
+  text = text.substr(0, text.find_last_not_of(" \t") + 1);
+  if (text.empty()) return otherwise;
+  const auto number = parseNumber(text);
+  if (number) return *number;
+  throw InvalidParamsError(name + " is '" + text + "', not a number");
 }
 
 }  // namespace mrpt_polyloc

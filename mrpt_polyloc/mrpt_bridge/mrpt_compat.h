@@ -1,15 +1,31 @@
 #pragma once
 
+// What differs between MRPT 2.5.8, the only version this is built and tested with, and 2.15, as far
+// as MRPT's change log (read up to 2.14.8) and its headers tell. MRPT_VERSION is 0xMmp up to 2.10.1
+// (0x258 is 2.5.8) and 0xMMmmpp from 2.10.2 on; a test with >= is right for both.
+
 #include <mrpt/maps/CMetricMap.h>
 #include <mrpt/version.h>
+
+#if MRPT_VERSION >= 0x270
+#include <mrpt/opengl/Scene.h>
+#else
+#include <mrpt/opengl/COpenGLScene.h>
+#endif
 
 #include <memory>
 
 namespace mrpt_polyloc {
 
+/// A scene of objects to be drawn: renamed in 2.7.0.
+#if MRPT_VERSION >= 0x270
+using Scene = mrpt::opengl::Scene;
+#else
+using Scene = mrpt::opengl::COpenGLScene;
+#endif
+
 /// What MRPT wants back from internal_CreateFromMapDefinition(): a raw pointer that it takes over,
-/// from 2.11.3 on a shared one. (MRPT_VERSION of 2.5.8 is 0x258, that of 2.11.3 0x020b03.)
-/// Built and tested with 2.5.8 alone.
+/// from 2.11.3 on a shared one.
 #if MRPT_VERSION >= 0x020b03
 using CreatedMap = std::shared_ptr<mrpt::maps::CMetricMap>;
 #else
@@ -24,5 +40,12 @@ CreatedMap toCreatedMap(std::unique_ptr<Map> map) {
   return map.release();
 #endif
 }
+
+/// For the methods of CMetricMap that are virtual from 2.11.3 on: boundingBox().
+#if MRPT_VERSION >= 0x020b03
+#define POLYLOC_OVERRIDE_FROM_2_11_3 override
+#else
+#define POLYLOC_OVERRIDE_FROM_2_11_3
+#endif
 
 }  // namespace mrpt_polyloc

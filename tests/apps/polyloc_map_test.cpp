@@ -1,6 +1,9 @@
 #include "ProgramTest.h"
+#include <mrpt_polyloc/mrpt_bridge/mrpt_archive.h>
+#include <mrpt_polyloc/mrpt_bridge/mrpt_compat.h>
 
 #include <gmock/gmock.h>
+#include <mrpt/opengl/CSetOfLines.h>
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
@@ -65,6 +68,17 @@ TEST_F(PolylocMap, ConvertsToGeoJsonAndBack) {
 TEST_F(PolylocMap, DrawsTheMap) {
   ASSERT_EQ(map({roomFile(), "--svg", path("room.svg")}).code, 0);
   EXPECT_THAT(readFile(path("room.svg")), AllOf(HasSubstr("<svg xmlns"), HasSubstr("</svg>")));
+}
+
+TEST_F(PolylocMap, WritesASceneOfLinesThatMrptReads) {
+  ASSERT_EQ(map({roomFile(), "--3dscene", path("room.3Dscene")}).code, 0);
+  GzInputStream file(path("room.3Dscene"));
+  const auto scene = std::dynamic_pointer_cast<Scene>(readObject(file, 0));
+  ASSERT_TRUE(scene);
+  const auto walls = scene->getByClass<mrpt::opengl::CSetOfLines>(0);
+  ASSERT_TRUE(walls);
+  EXPECT_EQ(walls->getLineCount(), 13U);
+  EXPECT_TRUE(file.atEnd());
 }
 
 TEST_F(PolylocMap, ARepairedMapIsDoneWithWarnings) {
@@ -142,7 +156,7 @@ TEST_F(PolylocMap, AGridWithoutFreeSpaceFails) {
 
 TEST_F(PolylocMap, UnwritableOutputFails) {
   const std::string room = roomFile();
-  for (const char* option : {"-o", "--svg"}) {
+  for (const char* option : {"-o", "--svg", "--3dscene"}) {
     const std::string inside_a_file = room + "/out.geojson";
     Outcome outcome = map({room, option, inside_a_file});
     EXPECT_EQ(outcome.code, 1);

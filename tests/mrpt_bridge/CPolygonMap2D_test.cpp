@@ -1,71 +1,27 @@
-#include "tests/support/map_factories.h"
+#include "map_scenes.h"
 #include "tests/support/temp_file.h"
 #include <mrpt_polyloc/evaluation/WallSegments.h>
 #include <mrpt_polyloc/geometry/geojson.h>
-#include <mrpt_polyloc/geometry/validation.h>
 #include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
-#include <mrpt_polyloc/mrpt_bridge/registration.h>
 
-#include <gtest/gtest.h>
-#include <mrpt/config/CConfigFileMemory.h>
-#include <mrpt/io/CMemoryStream.h>
-#include <mrpt/maps/CMultiMetricMap.h>
-#include <mrpt/maps/CSimpleMap.h>
+#include <gmock/gmock.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
-#include <mrpt/serialization/CArchive.h>
+#include <mrpt/poses/CPose2D.h>
 
 #include <cmath>
 #include <random>
 #include <thread>
-
-#ifdef __SANITIZE_ADDRESS__
-/// MRPT 2.5.8 does not free a map definition whose ini is refused with an exception.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:mrpt::maps::TSetOfMetricMapInitializers::loadFromConfigFile\n";
-}
-#endif
 
 namespace mrpt_polyloc {
 namespace {
 
 using mrpt::obs::CObservation2DRangeScan;
 using mrpt::poses::CPose3D;
-
-/// What is seen of a map from a pose of the robot, by casting rays one by one.
-CObservation2DRangeScan castScan(const PolygonMap& map, double x, double y, double phi) {
-  const WallSegments walls(map);
-  CObservation2DRangeScan scan;
-  scan.aperture = 3.0F;
-  scan.maxRange = 80.0F;
-  scan.sensorPose = CPose3D(0.3, 0.1, 0, 0.2, 0, 0);
-  scan.resizeScanAndAssign(61, 1.0F, true);
-  const CPose3D sensor = CPose3D(x, y, 0, phi, 0, 0) + scan.sensorPose;
-  for (std::size_t i = 0; i < 61; ++i) {
-    const double direction = sensor.yaw() - 1.5 + 0.05 * static_cast<double>(i);
-    scan.setScanRange(i, static_cast<float>(walls.range({sensor.x(), sensor.y()}, direction)));
-  }
-  return scan;
-}
-
-PolygonMap room() {
-  return test::mapOf({{0, 0}, {10, 0}, {10, 3}, {4, 3}, {4, 8}, {0, 8}});
-}
-
-mrpt::maps::TSetOfMetricMapInitializers fromIni(const std::string& text) {
-  registerClasses();
-  mrpt::config::CConfigFileMemory ini(text);
-  mrpt::maps::TSetOfMetricMapInitializers maps;
-  maps.loadFromConfigFile(ini, "M");
-  return maps;
-}
-
-std::string iniFor(const std::string& file, const std::string& options = "") {
-  return "[M]\npolygonMap2D_count=1\n[M_polygonMap2D_00_creationOpts]\nfile=" + file +
-         "\n[M_polygonMap2D_00_likelihoodOpts]\n" + options + "\n";
-}
+using test::castScan;
+using test::partlyOpenRoom;
+using test::room;
 
 TEST(PolygonMap2D, LikelihoodIsTheSumOverRaysCastOneByOne) {
   const PolygonMap polygons = room();
@@ -108,45 +64,47 @@ TEST(PolygonMap2D, IsFiniteForScansAndPosesThatSayNothing) {
   auto scan = castScan(room(), 2, 2, 0.5);
   EXPECT_EQ(map.computeObservationLikelihood(CObservation2DRangeScan(), CPose3D()), 0.0);
   const double far = map.computeObservationLikelihood(scan, CPose3D(1e6, 0, 0, 0, 0, 0));
-  EXPECT_NEAR(far, -20.0 * 0.6 / 0.1, 1e-3);
-  for (std::size_t i = 0; i < 61; ++i) scan.setScanRange(i, std::nanf(""));
-  EXPECT_EQ(map.computeObservationLikelihood(scan, CPose3D(2, 2, 0, 0, 0, 0)), 0.0);
-  scan.sensorPose = CPose3D(0, 0, 0, 0, 0.5, 0);
-  EXPECT_THROW(map.computeObservationLikelihood(scan, CPose3D()), std::invalid_argument);
+  EXPECT_NEAR(far, -map.likelihoodOptions.independent_beams * 0.6 / map.likelihoodOptions.sigma,
+              1e-3);
+  // Readings that are no ranges say nothing; of a scan that has some, the others count.
+  const CPose3D pose(2, 2, 0, 0.5, 0, 0);
+  const float none[] = {std::nanf(""), HUGE_VALF, -HUGE_VALF, -1.0F, 0.0F};
+  for (std::size_t i = 0; i < 61; i += 2) scan.setScanRange(i, none[i / 2 % 5]);
+  EXPECT_NEAR(map.computeObservationLikelihood(scan, pose), 0.0, 1e-2);
+  EXPECT_LT(map.computeObservationLikelihood(scan, CPose3D(2.3, 2, 0, 0.5, 0, 0)), -1.0);
+  for (std::size_t i = 0; i < 61; ++i) scan.setScanRange(i, none[i % 5]);
+  for (const char* metric : {"robust", "polar"}) {
+    map.likelihoodOptions.metric = metric;
+    EXPECT_EQ(map.computeObservationLikelihood(scan, pose), 0.0);
+    EXPECT_EQ(map.computeLikelihoods(scan, {{2, 2, 0.5}}), std::vector<double>{0.0});
+  }
 }
 
-TEST(PolygonMap2D, IsMadeByAnIniCopiedBySerializationAndKeptByClear) {
-  const test::TempFile file(".geojson", toGeoJson(room()));
-  mrpt::maps::CMultiMetricMap maps(fromIni(iniFor(file.path(), "sigma=0.25\ndecimation=3")));
-  const mrpt::maps::CMultiMetricMap copy(maps);
-  auto made = copy.mapByClass<CPolygonMap2D>();
-  ASSERT_TRUE(made && made->map());
-  EXPECT_EQ(made->map()->hash(), room().hash());
-  EXPECT_EQ(made->likelihoodOptions.sigma, 0.25);
-  EXPECT_EQ(made->likelihoodOptions.decimation, 3U);
-  made->loadFromSimpleMap(mrpt::maps::CSimpleMap());
-  EXPECT_FALSE(made->isEmpty());
+TEST(PolygonMap2D, SaysNothingWhereMrptsOptionForbidsIt) {
+  CPolygonMap2D map(room());
+  const auto scan = castScan(room(), 2, 2, 0.5);
+  const CPose3D elsewhere(3, 1, 0, 1.5, 0, 0), nowhere(std::nan(""), 0, 0, 0, 0, 0);
+  EXPECT_LT(map.computeObservationLikelihood(scan, elsewhere), -10.0);
+  EXPECT_NEAR(map.computeObservationLikelihood(scan, nowhere),
+              -map.likelihoodOptions.independent_beams * 0.6 / map.likelihoodOptions.sigma, 1e-3);
+  map.genericMapParams.enableObservationLikelihood = false;
+  EXPECT_EQ(map.computeObservationLikelihood(scan, elsewhere), 0.0);
 }
 
-TEST(PolygonMap2D, ComplainsOfABadIni) {
-  const test::TempFile good(".geojson", toGeoJson(room())), broken(".geojson", "{");
-  const auto make = [](const std::string& ini) { mrpt::maps::CMultiMetricMap maps(fromIni(ini)); };
-  EXPECT_ANY_THROW(make(iniFor("")));
-  EXPECT_ANY_THROW(make(iniFor("/nowhere/map.geojson")));
-  EXPECT_ANY_THROW(make(iniFor(broken.path())));
-  EXPECT_ANY_THROW(make(iniFor(good.path(), "sigmma=0.2")));
-  EXPECT_ANY_THROW(make(iniFor(good.path(), "sigma=-1")));
-  EXPECT_NO_THROW(make(iniFor(good.path())));
-  // The messages name the option or the file.
-  const auto complaint = [&](const std::string& ini) {
-    return test::messageOf<std::exception>([&] { make(ini); });
+TEST(PolygonMap2D, RefusesASensorThatIsNotPlanar) {
+  const CPolygonMap2D map(room());
+  auto scan = castScan(room(), 2, 2, 0.5);
+  const auto complaint = [&] {
+    return test::messageOf<std::invalid_argument>(
+        [&] { map.computeObservationLikelihood(scan, CPose3D()); });
   };
-  EXPECT_NE(complaint(iniFor("")).find("no 'file' is given"), std::string::npos);
-  EXPECT_NE(complaint(iniFor("/nowhere/map.geojson")).find("/nowhere/map.geojson"),
-            std::string::npos);
-  EXPECT_NE(complaint(iniFor(broken.path())).find(broken.path()), std::string::npos);
-  EXPECT_NE(complaint(iniFor(good.path(), "sigmma=0.2")).find("sigmma"), std::string::npos);
-  EXPECT_NE(complaint(iniFor(good.path(), "sigma=-1")).find("sigma"), std::string::npos);
+  for (const CPose3D& tilted : {CPose3D(0, 0, 0, 0, 0.5, 0), CPose3D(0, 0, 0, 0, 0, 0.1)}) {
+    scan.sensorPose = tilted;
+    EXPECT_THAT(complaint(), testing::HasSubstr("planar"));
+    EXPECT_THROW(map.computeLikelihoods(scan, {{0, 0, 0}}), std::invalid_argument);
+  }
+  scan.sensorPose = CPose3D(std::nan(""), 0, 0, 0, 0, 0);
+  EXPECT_THROW(map.computeObservationLikelihood(scan, CPose3D()), std::invalid_argument);
 }
 
 TEST(PolygonMap2D, ThePolarMetricIsAMeanOverTheHits) {
@@ -156,39 +114,11 @@ TEST(PolygonMap2D, ThePolarMetricIsAMeanOverTheHits) {
   for (std::size_t i = 0; i < 61; ++i) scan.setScanRange(i, scan.getScanRange(i) + 0.1F);
   const CPose3D pose(2, 2, 0, 0.5, 0, 0);
   const double all = map.computeObservationLikelihood(scan, pose);
-  EXPECT_NEAR(all, -20.0 * 0.01 / 0.02, 0.01);
+  EXPECT_NEAR(all, -map.likelihoodOptions.independent_beams * 0.01 / 0.02, 0.01);
   for (std::size_t i = 0; i < 30; ++i) scan.setScanRangeValidity(i, false);  // no-returns
   EXPECT_NEAR(map.computeObservationLikelihood(scan, pose), all, 0.01);
   for (std::size_t i = 30; i < 61; ++i) scan.setScanRangeValidity(i, false);
   EXPECT_EQ(map.computeObservationLikelihood(scan, pose), 0.0);
-}
-
-TEST(PolygonMap2D, RefusesWhatANewerVersionStored) {
-  registerClasses();
-  for (const int newer : {0, 1}) {
-    mrpt::io::CMemoryStream stream;
-    auto archive = mrpt::serialization::archiveFrom(stream);
-    archive << CPolygonMap2D(room());
-    // MRPT writes the length of the class's name in one byte, the name, and then the version.
-    auto* bytes = static_cast<char*>(stream.getRawBufferData());
-    bytes[1 + std::string("mrpt_polyloc::CPolygonMap2D").size()] = static_cast<char>(newer);
-    stream.Seek(0);
-    if (newer == 0) {
-      EXPECT_NO_THROW(archive.ReadObject());
-    } else {
-      EXPECT_ANY_THROW(archive.ReadObject());
-    }
-  }
-}
-
-/// An open edge, a wall beyond it, and a hole.
-PolygonMap partlyOpenRoom() {
-  RawMap raw;
-  raw.polygons.push_back(
-      {wallRing({{0, 0}, {10, 0}, {10, 6}, {0, 6}}), {wallRing({{4, 2}, {4, 4}, {5, 4}, {5, 2}})}});
-  raw.polygons.front().outer.kinds[1] = EdgeKind::open;
-  raw.walls_beyond.push_back({{12, 1}, {12, 3}, {13, 5}});
-  return repairMap(raw).map;
 }
 
 TEST(PolygonMap2D, DistanceIsThatToTheNearestWall) {
@@ -264,6 +194,18 @@ TEST(PolygonMap2D, MatchesPointsMapsOnly) {
   mrpt::maps::TMatchingExtraResults results;
   EXPECT_THROW(map.determineMatching2D(&map, {}, pairs, {}, results), std::invalid_argument);
   EXPECT_THROW(map.compute3DMatchingRatio(&map, {}, {}), std::invalid_argument);
+  for (const CPolygonMap2D& any : {map, CPolygonMap2D()}) {
+    EXPECT_THROW(any.determineMatching2D(nullptr, {}, pairs, {}, results), std::invalid_argument);
+    EXPECT_THROW(any.determineMatching3D(nullptr, {}, pairs, {}, results), std::invalid_argument);
+    EXPECT_THROW(any.compute3DMatchingRatio(nullptr, {}, {}), std::invalid_argument);
+  }
+  // The messages say what was given.
+  const auto complaint = [&](const mrpt::maps::CMetricMap* other) {
+    return test::messageOf<std::invalid_argument>(
+        [&] { map.determineMatching2D(other, {}, pairs, {}, results); });
+  };
+  EXPECT_THAT(complaint(nullptr), testing::HasSubstr("null"));
+  EXPECT_THAT(complaint(&map), testing::HasSubstr("points maps only, not mrpt_polyloc::"));
   const mrpt::maps::CSimplePointsMap none;
   map.determineMatching2D(&none, {}, pairs, {}, results);
   EXPECT_TRUE(pairs.empty());
@@ -322,6 +264,13 @@ TEST(PolygonMap2D, ManyPosesAtOnceAreWeighedAsOneByOne) {
   }
   EXPECT_TRUE(map.computeLikelihoods(scan, {}).empty());
   EXPECT_EQ(CPolygonMap2D().computeLikelihoods(scan, poses), std::vector<double>(300, 0.0));
+}
+
+TEST(PolygonMap2D, BoundingBoxHoldsTheWallsBeyond) {
+  const auto box = CPolygonMap2D(partlyOpenRoom()).boundingBox();
+  EXPECT_EQ(box.min, mrpt::math::TPoint3Df(0, 0, 0));
+  EXPECT_EQ(box.max, mrpt::math::TPoint3Df(13, 6, 0));
+  EXPECT_EQ(CPolygonMap2D().boundingBox().max, mrpt::math::TPoint3Df(0, 0, 0));
 }
 
 TEST(PolygonMap2D, ShowsItselfAsLinesAndSavesItselfAsGeoJson) {
