@@ -12,6 +12,7 @@
 #include <exception>
 #include <string>
 #include <thread>
+#include <time.h>
 
 namespace mrpt_polyloc::replay {
 namespace {
@@ -26,6 +27,21 @@ double timed(const Job& job) {
   job();
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
       .count();
+}
+
+/// CPU time of the calling thread [ms].
+double cpuMs() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+/// Runs a job of MRPT's filter and adds what it took.
+template <class Job>
+void timeFilter(StepRecord& record, const Job& job) {
+  const double before = cpuMs();
+  record.filter_ms += timed(job);
+  record.filter_cpu_ms += cpuMs() - before;
 }
 
 /// A filter with its particles, and what keeps it from staying lost.
@@ -58,15 +74,16 @@ class Driver {
       ParticleSeeder(*setup_->maps.polygons.map(), everywhere).seed({}, nextSeed(), particles_);
     }
     record.particles = particles_.size();
-    record.filter_ms = timed([&] { weigh(first); });
+    timeFilter(record, [&] { weigh(first); });
     judge(first, record);
     return record;
   }
 
   StepRecord step(const ReplayStep& next) {
     StepRecord record;
-    record.filter_ms =
-        timed([&] { filter_.executeOn(particles_, next.action.get(), next.frame.get(), nullptr); });
+    timeFilter(record, [&] {
+      filter_.executeOn(particles_, next.action.get(), next.frame.get(), nullptr);
+    });
     record.particles = particles_.size();
     judge(next, record);
     return record;
@@ -94,6 +111,8 @@ class Driver {
     record.monitor_ms =
         timed([&] { verdict = recovery_.update(*at.laser, nextSeed(), particles_); });
     record.fit = verdict.fit;
+    record.best_fit = verdict.best_fit;
+    record.mixed_in = verdict.mixed_in;
     record.health = verdict.health;
     if (verdict.search) {
       record.search = verdict.search->status;
@@ -103,7 +122,7 @@ class Driver {
       record.search_ms += took;
       record.monitor_ms = std::max(0.0, record.monitor_ms - took);
     }
-    if (verdict.mixed_in) record.filter_ms += timed([&] { weigh(at); });
+    if (verdict.mixed_in) timeFilter(record, [&] { weigh(at); });
   }
 
   const ReplaySetup* setup_;

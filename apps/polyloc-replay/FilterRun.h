@@ -24,11 +24,14 @@ struct StepRecord {
   std::optional<double> fit;                 ///< see filterFit(); none if it was not judged
   std::optional<FilterHealth> health;        ///< none without recovery
   std::optional<LocalizationStatus> search;  ///< if a search was made at this step
+  std::optional<double> best_fit;            ///< of the best hypothesis, see FilterRecovery
+  bool mixed_in = false;                     ///< whether hypotheses were mixed in
   std::size_t hypotheses = 0;                ///< that it found
-  double filter_ms = 0.0;                    ///< MRPT's filter [wall ms]
-  double search_ms = 0.0;                    ///< search, if there was one
-  double monitor_ms = 0.0;                   ///< judging the fit, and mixing in
-  std::vector<mrpt::math::TPose2D> cloud;    ///< the particles, at steps to be reported
+  double filter_cpu_ms = 0.0;  ///< the same in CPU time, which other programs do not change
+  double filter_ms = 0.0;      ///< MRPT's filter [wall ms]
+  double search_ms = 0.0;      ///< search, if there was one
+  double monitor_ms = 0.0;     ///< judging the fit, and mixing in
+  std::vector<mrpt::math::TPose2D> cloud;  ///< the particles, at steps to be reported
 };
 
 /// One repetition.

@@ -150,6 +150,9 @@ void readRecovery(IniSection& section, ReplayConfig& config) {
   FilterMonitorParams& monitor = recovery.monitor;
   config.recovers = section.flag("recovery", config.recovers);
   recovery.share = section.number("recovery_share", recovery.share, 0, 1);
+  recovery.least_gain = section.number("recovery_least_gain", recovery.least_gain, 0, 1e6);
+  recovery.sure_weight = section.number("recovery_sure_weight", recovery.sure_weight, 0, 1);
+  recovery.patience = section.count("recovery_patience", recovery.patience, 0, 1'000'000);
   recovery.judged_particles =
       section.count("judged_particles", recovery.judged_particles, 1, 100'000);
   recovery.least_hits = section.count("judged_least_hits", recovery.least_hits, 1, 100'000);
@@ -163,12 +166,29 @@ void readRecovery(IniSection& section, ReplayConfig& config) {
 }
 
 void readPolyloc(ReplayConfig& config) {
-  IniSection section(
-      config.text, "polyloc",
-      {"map", "sensor", "init", "particles", "least_per_hypothesis", "uniform_share",
-       "max_hypotheses", "recovery", "recovery_share", "judged_particles", "judged_least_hits",
-       "monitor_least_steps", "monitor_window", "monitor_deviations", "monitor_least_deviation",
-       "monitor_patience", "carried", "report_steps"});
+  IniSection section(config.text, "polyloc",
+                     {"map",
+                      "sensor",
+                      "init",
+                      "particles",
+                      "least_per_hypothesis",
+                      "uniform_share",
+                      "max_hypotheses",
+                      "odometry_noise",
+                      "recovery",
+                      "recovery_share",
+                      "recovery_least_gain",
+                      "recovery_sure_weight",
+                      "recovery_patience",
+                      "judged_particles",
+                      "judged_least_hits",
+                      "monitor_least_steps",
+                      "monitor_window",
+                      "monitor_deviations",
+                      "monitor_least_deviation",
+                      "monitor_patience",
+                      "carried",
+                      "report_steps"});
   config.search_map = resolved(config.path, section.text("map", ""));
   config.sensor_label = section.text("sensor", "");
   config.init = parseInit(section.text("init", toString(config.init)));
@@ -178,6 +198,11 @@ void readPolyloc(ReplayConfig& config) {
   config.seeds.uniform_share = section.number("uniform_share", config.seeds.uniform_share, 0, 1);
   config.search.max_hypotheses =
       section.count("max_hypotheses", config.search.max_hypotheses, 1, 1'000'000);
+  const std::string noise = section.text("odometry_noise", "log");
+  if (noise != "log" && noise != "ini") {
+    throw InvalidParamsError("[polyloc]: odometry_noise = '" + noise + "' is not log or ini");
+  }
+  config.odometry.replaces_recorded = noise == "ini";
   readRecovery(section, config);
   config.carried = parseSteps("carried", section.text("carried", ""));
   const std::string steps = section.text("report_steps", "");

@@ -66,9 +66,9 @@ void addOptions(CLI::App& cli, Options& options) {
 void loadLibraries(const std::string& libraries) {
   if (libraries.empty()) return;
   std::string errors;
-  if (!mrpt::system::loadPluginModules(libraries, errors)) {
-    throw FormatError(libraries, "", "cannot be loaded: " + errors);
-  }
+  if (mrpt::system::loadPluginModules(libraries, errors)) return;
+  for (char& c : errors) c = c == '\n' ? ' ' : c;
+  throw FormatError(libraries, "", "cannot be loaded: " + errors);
 }
 
 /// The ini, with what the command line says instead.

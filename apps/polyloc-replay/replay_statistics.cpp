@@ -94,14 +94,17 @@ RunScore scoreRun(const RunRecord& run, const Truth& truth, const std::vector<st
   for (std::size_t k = 0; k < run.steps.size(); ++k) {
     const StepRecord& step = run.steps[k];
     score.total_ms += step.filter_ms;
+    score.total_cpu_ms += step.filter_cpu_ms;
     score.max_step_ms = std::max(score.max_step_ms, step.filter_ms);
     score.recovery_ms += step.monitor_ms + (k > 0 ? step.search_ms : 0.0);
     if (k > 0 && step.search) ++score.searches;
+    if (step.mixed_in) ++score.mixes;
     particles += static_cast<double>(step.particles);
   }
   if (run.steps.empty()) return score;
   score.search_ms = run.steps.front().search_ms;
   score.first_step_ms = run.steps.front().filter_ms;
+  score.first_step_cpu_ms = run.steps.front().filter_cpu_ms;
   score.first_particles = run.steps.front().particles;
   score.mean_particles = particles / static_cast<double>(run.steps.size());
   return score;

@@ -35,11 +35,14 @@ struct RunScore {
   double search_ms = 0.0;           ///< of the first search, at the first step
   double first_step_ms = 0.0;       ///< of the filter
   double total_ms = 0.0;            ///< of the filter, all steps
+  double first_step_cpu_ms = 0.0;   ///< the first step in CPU time
+  double total_cpu_ms = 0.0;        ///< all steps in CPU time
   double max_step_ms = 0.0;         ///< of the filter
   double recovery_ms = 0.0;         ///< judging the fits, and searches after the first
   std::size_t first_particles = 0;
   double mean_particles = 0.0;
   std::size_t searches = 0;  ///< after the first
+  std::size_t mixes = 0;     ///< of these, those whose hypotheses were mixed in
   /// For each gap, after how many scans the robot was found: 1 means that the first estimate after
   /// it is right, and all on to the next gap (or the end) are. Null if it was not.
   std::vector<std::optional<std::size_t>> found_after;
@@ -65,7 +68,8 @@ std::string replaySummaryText(const ReplayFacts& facts, const std::vector<RunSco
 
 /// A line per run and step:
 /// `run,seed,step,stamp,x,y,phi_deg,std_x,std_y,std_phi_deg,particles,fit,`
-/// `health,search,hypotheses,error_m,error_deg,filter_ms,search_ms,monitor_ms`; what does not exist
+/// `health,search,hypotheses,best_fit,mixed_in,error_m,error_deg,filter_ms,filter_cpu_ms,search_ms,`
+/// `monitor_ms`; what does not exist
 /// is empty.
 std::string stepsCsv(const std::vector<RunRecord>& runs, const Truth& truth);
 

@@ -75,7 +75,9 @@ Json perRun(const RunRecord& run, const RunScore& score, bool has_truth) {
   json["search_ms"] = score.search_ms;
   json["first_step_ms"] = score.first_step_ms;
   json["total_ms"] = score.total_ms;
+  json["total_cpu_ms"] = score.total_cpu_ms;
   json["searches"] = score.searches;
+  json["mixes"] = score.mixes;
   Json after = Json::array();
   for (const auto& scans : score.found_after) after.push_back(orNull(scans));
   json["found_after"] = after;
@@ -105,10 +107,13 @@ std::string replaySummaryJson(const ReplayFacts& facts, const std::vector<RunRec
   json["search_ms"] = median([](const auto& s) { return s.search_ms; });
   json["first_step_ms"] = median([](const auto& s) { return s.first_step_ms; });
   json["total_ms"] = median([](const auto& s) { return s.total_ms; });
+  json["first_step_cpu_ms"] = median([](const auto& s) { return s.first_step_cpu_ms; });
+  json["total_cpu_ms"] = median([](const auto& s) { return s.total_cpu_ms; });
   json["max_step_ms"] = median([](const auto& s) { return s.max_step_ms; });
   json["recovery_ms"] = median([](const auto& s) { return s.recovery_ms; });
   json["mean_particles"] = median([](const auto& s) { return s.mean_particles; });
   json["searches"] = median([](const auto& s) { return static_cast<double>(s.searches); });
+  json["mixes"] = median([](const auto& s) { return static_cast<double>(s.mixes); });
   json["median_error_m"] = figure(medianOf(right, [](const auto& s) { return s.error_m; }));
   json["median_error_deg"] =
       figure(medianOf(right, [](const auto& s) { return toDegrees(s.error_rad); }));
@@ -132,30 +137,33 @@ std::string replaySummaryJson(const ReplayFacts& facts, const std::vector<RunRec
 
 std::string replaySummaryText(const ReplayFacts& facts, const std::vector<RunScore>& scores) {
   const std::vector<RunScore> right = successful(scores);
+  const auto figure_of = [&](const char* pattern, auto value) {
+    return format(pattern, medianOf(scores, value));
+  };
   std::string text = "init " + facts.init + ", " + std::to_string(facts.steps) + " steps, map " +
                      facts.maps + "\n";
   if (!facts.truth_file.empty()) {
+    const auto of_right = [&](const char* pattern, auto value) {
+      return format(pattern, medianOf(right, value));
+    };
     text += "success       " + std::to_string(right.size()) + " of " +
-            std::to_string(scores.size()) + "\n";
-    text += "from step     " +
-            format("%.1f", medianOf(right, [](const auto& s) { return double(*s.step); })) +
-            " (median)\n";
-    text +=
-        "error         " +
-        format("%.3f m, ", medianOf(right, [](const auto& s) { return s.error_m; })) +
-        format("%.2f deg\n", medianOf(right, [](const auto& s) { return toDegrees(s.error_rad); }));
+            std::to_string(scores.size()) + "\nfrom step     " +
+            of_right("%.1f", [](const auto& s) { return static_cast<double>(*s.step); }) +
+            " (median)\nerror         " +
+            of_right("%.3f", [](const auto& s) { return s.error_m; }) + " m, " +
+            of_right("%.2f", [](const auto& s) { return toDegrees(s.error_rad); }) + " deg\n";
   }
-  text +=
-      "particles     " +
-      format("%.0f at first, ",
-             medianOf(scores, [](const auto& s) { return double(s.first_particles); })) +
-      format("%.0f on average\n", medianOf(scores, [](const auto& s) { return s.mean_particles; }));
-  text +=
-      "ms            " +
-      format("search %.1f, ", medianOf(scores, [](const auto& s) { return s.search_ms; })) +
-      format("first step %.2f, ", medianOf(scores, [](const auto& s) { return s.first_step_ms; })) +
-      format("whole filter %.1f, ", medianOf(scores, [](const auto& s) { return s.total_ms; })) +
-      format("recovery %.1f\n", medianOf(scores, [](const auto& s) { return s.recovery_ms; }));
+  text += "particles     " +
+          figure_of("%.0f", [](const auto& s) { return static_cast<double>(s.first_particles); }) +
+          " at first, " + figure_of("%.0f", [](const auto& s) { return s.mean_particles; }) +
+          " on average\nms            search " +
+          figure_of("%.1f", [](const auto& s) { return s.search_ms; }) + ", first step " +
+          figure_of("%.2f", [](const auto& s) { return s.first_step_ms; }) + ", whole filter " +
+          figure_of("%.1f", [](const auto& s) { return s.total_ms; }) + ", recovery " +
+          figure_of("%.1f", [](const auto& s) { return s.recovery_ms; }) +
+          "\nCPU ms        first step " +
+          figure_of("%.2f", [](const auto& s) { return s.first_step_cpu_ms; }) + ", whole filter " +
+          figure_of("%.1f", [](const auto& s) { return s.total_cpu_ms; }) + "\n";
   for (std::size_t g = 0; g < facts.gaps.size(); ++g) {
     const Json gap = gapSummary(g, facts.gaps[g], scores);
     text += "carried to step " + std::to_string(facts.gaps[g]);
@@ -172,7 +180,8 @@ std::string replaySummaryText(const ReplayFacts& facts, const std::vector<RunSco
 std::string stepsCsv(const std::vector<RunRecord>& runs, const Truth& truth) {
   std::string text =
       "run,seed,step,stamp,x,y,phi_deg,std_x,std_y,std_phi_deg,particles,fit,health,search,"
-      "hypotheses,error_m,error_deg,filter_ms,search_ms,monitor_ms\n";
+      "hypotheses,best_fit,mixed_in,error_m,error_deg,filter_ms,filter_cpu_ms,search_ms,monitor_"
+      "ms\n";
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (const StepRecord& step : runs[i].steps) {
       char line[320];
@@ -188,11 +197,13 @@ std::string stepsCsv(const std::vector<RunRecord>& runs, const Truth& truth) {
       text += std::string(",") + (step.health ? healthName(*step.health) : "");
       text += std::string(",") + (step.search ? mrpt_polyloc::toString(*step.search) : "");
       text += "," + (step.search ? std::to_string(step.hypotheses) : "");
+      text += "," + (step.best_fit ? format("%.4f", *step.best_fit) : "");
+      text += std::string(",") + (step.search ? step.mixed_in ? "1" : "0" : "");
       const auto error = errorOf(step, truth);
       text += "," + (error ? format("%.4f", error->m) : "");
       text += "," + (error ? format("%.3f", toDegrees(error->rad)) : "");
-      std::snprintf(line, sizeof line, ",%.3f,%.3f,%.3f\n", step.filter_ms, step.search_ms,
-                    step.monitor_ms);
+      std::snprintf(line, sizeof line, ",%.3f,%.3f,%.3f,%.3f\n", step.filter_ms, step.filter_cpu_ms,
+                    step.search_ms, step.monitor_ms);
       text += line;
     }
   }

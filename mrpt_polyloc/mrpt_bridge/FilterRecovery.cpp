@@ -47,6 +47,8 @@ TLikelihoodOptions fitOptions() {
 void FilterRecoveryParams::check() const {
   monitor.check();
   requireInRange("share", share, 0.0, 1.0);
+  requireNotNegative("least_gain", least_gain);
+  requireInRange("sure_weight", sure_weight, 0.0, 1.0);
   requireInRange("judged_particles", static_cast<double>(judged_particles), 1.0, 1e6);
 }
 
@@ -108,14 +110,27 @@ FilterRecovery::Verdict FilterRecovery::update(const CObservation2DRangeScan& sc
   // Before it is placed the filter's own steps say nothing of how a good fit looks.
   if (is_placed_) health_ = monitor_.update(*verdict.fit);
   verdict.health = health_;
-  if (is_placed_ && health_ != FilterHealth::lost) return verdict;
+  if (is_placed_ && health_ != FilterHealth::lost) {
+    if (health_ != FilterHealth::doubtful) unsure_ = 0;
+    return verdict;
+  }
 
   verdict.search = localizer_->localize(beams);
   if (verdict.search->hypotheses.empty()) return verdict;
+  const Hypothesis& best = verdict.search->hypotheses.front();
+  verdict.best_fit = -best.cost / fitOptions().sigma;
+  if (is_placed_) {
+    const bool gains = *verdict.best_fit >= *verdict.fit + params_.least_gain;
+    const bool is_sure =
+        best.weight >= params_.sure_weight && *verdict.best_fit >= monitor_.threshold();
+    if (gains && !is_sure && unsure_++ < params_.patience) return verdict;
+    unsure_ = 0;
+    monitor_.recovered();  // found, or as well off as can be: either way judged anew
+    if (!gains) return verdict;
+  }
   mixIn(seeder_->draw(toSog(*verdict.search), seed), params_.share, particles);
   verdict.mixed_in = true;
   is_placed_ = true;
-  monitor_.recovered();
   return verdict;
 }
 

@@ -20,6 +20,16 @@ struct FilterRecoveryParams {
   /// Share of belief that new hypotheses get when the filter is lost. Half: neither the filter nor
   /// the search is believed beforehand, the scans decide.
   double share = 0.5;
+  /// New hypotheses are mixed in only if the best explains the scan better than the filter does by
+  /// so much [mean log-likelihood per beam]: else the world has changed, not the robot's place, and
+  /// rivals would only confuse the filter.
+  double least_gain = 0.4;
+  /// The robot counts as found if the first hypothesis has at least so much of the weight, and fits
+  /// as a healthy filter does. Else the filter waits for a scan that says more: a person who blocks
+  /// the view makes it look like many places, or like none.
+  double sure_weight = 0.9;
+  /// But not for more scans than this: where the place is ambiguous the filter must follow all.
+  std::size_t patience = 10;
   /// The fit is the mean over so many particles, taken evenly by weight: enough to see what most of
   /// the belief says, few enough to cost nothing beside the filter.
   std::size_t judged_particles = 50;
@@ -64,6 +74,7 @@ class FilterRecovery {
     std::optional<double> fit;  ///< none where the scan was not judged
     FilterHealth health = FilterHealth::learning;
     std::optional<LocalizationResult> search;  ///< if there was one
+    std::optional<double> best_fit;            ///< of the best hypothesis, if there was one
     bool mixed_in = false;                     ///< whether the particles have changed
   };
 
@@ -79,7 +90,8 @@ class FilterRecovery {
   FilterRecoveryParams params_;
   FilterMonitor monitor_;
   FilterHealth health_ = FilterHealth::learning;
-  bool is_placed_ = true;  ///< some search has found something
+  bool is_placed_ = true;   ///< some search has found something
+  std::size_t unsure_ = 0;  ///< searches in a row that were not sure
 };
 
 }  // namespace mrpt_polyloc

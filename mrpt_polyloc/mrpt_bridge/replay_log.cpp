@@ -108,16 +108,17 @@ CActionCollection::Ptr movementOf(const CPose2D& increment,
   return action;
 }
 
-/// One action as it is recorded; of several the composed movement.
-CActionCollection::Ptr composed(const std::vector<CActionCollection::Ptr>& actions) {
-  if (actions.size() == 1) return actions.front();
+/// One action as it is recorded; of several, or with another noise, the composed movement.
+CActionCollection::Ptr composed(const std::vector<CActionCollection::Ptr>& actions,
+                                const CActionRobotMovement2D::TMotionModelOptions* replacement) {
+  if (actions.size() == 1 && !replacement) return actions.front();
   CPose2D increment;
   CActionRobotMovement2D::Ptr movement;
   for (const auto& action : actions) {
     movement = action->getBestMovementEstimation();
     increment = increment + movement->poseChange->getMeanVal();
   }
-  return movementOf(increment, movement->motionModelConfiguration);
+  return movementOf(increment, replacement ? *replacement : movement->motionModelConfiguration);
 }
 
 /// The scans that belong to the sensor: the first such one of each candidate, null if it has none.
@@ -180,7 +181,8 @@ std::vector<ReplayStep> loadReplayLog(const std::string& path, const std::string
     if (!steps.empty()) {
       const CPose2D driven =
           candidate.odometry && last_odometry ? *candidate.odometry - *last_odometry : CPose2D();
-      step.action = pending.empty() ? movementOf(driven, model) : composed(pending);
+      step.action = pending.empty() ? movementOf(driven, model)
+                                    : composed(pending, noise.replaces_recorded ? &model : nullptr);
     }
     pending.clear();
     if (candidate.odometry) last_odometry = candidate.odometry;

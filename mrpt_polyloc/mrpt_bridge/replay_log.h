@@ -26,10 +26,13 @@ struct ReplayStep {
   RangeScan scan{std::vector<Beam>{}};            ///< the same scan
 };
 
-/// The noise of odometry readings, which logs of observations do not state.
+/// The noise of movements: of odometry readings, which logs of observations do not state.
 struct OdometryNoise {
   double min_std_xy = 0.04;                   ///< [m] as pf-localization's default
   double min_std_phi = 0.034906585039886592;  ///< [rad] 2 degrees, as pf-localization's default
+  /// Actions get this noise, too, instead of the one recorded with them: for odometry that is late
+  /// or worse than its log says.
+  bool replaces_recorded = false;
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;

@@ -141,6 +141,53 @@ TEST_F(FilterRecoveryTest, FindsATeleportedRobotAndLeavesAHealthyFilterAlone) {
   EXPECT_NEAR(beliefNear(particles, onTheWay(40)), 0.5, 0.02);
 }
 
+/// In a room without anything in it.
+class AmbiguousRecoveryTest : public FilterRecoveryTest {
+ protected:
+  AmbiguousRecoveryTest() {
+    test::ScanOptions options;
+    options.beams = 180;
+    options.sigma = 0.01;
+    options.seed = 3;
+    const double aperture = 2 * test::kPi * (1.0 - 1.0 / 180.0);
+    scan_ = toObservation(test::simulatedScan(box_, {2.0, 1.5, 0.3}, options), aperture, 0.0, 80.0);
+  }
+  /// How many bad steps it takes until hypotheses are mixed in; 0 if they never are.
+  int stepsUntilMixed(const FilterRecoveryParams& params) {
+    const GlobalLocalizer localizer(box_);
+    const ParticleSeeder seeder(box_);
+    FilterRecovery recovery(localizer, seeder, CPolygonMap2D(box_), params);
+    CPosePDFParticles particles = particlesAt({{2.0, 1.5, 0.3}});
+    for (int i = 0; i < 20; ++i) recovery.update(scan_, 1, particles);
+    for (int step = 1; step < 40; ++step) {
+      particles = particlesAt({{3.4, 2.6, 1.0}});
+      const auto verdict = recovery.update(scan_, 1, particles);
+      if (verdict.search) {
+        EXPECT_EQ(verdict.search->status, LocalizationStatus::ambiguous);
+      }
+      if (verdict.mixed_in) return step;
+    }
+    return 0;
+  }
+
+  // Half a turn maps it onto itself: every scan has two places.
+  PolygonMap box_ = test::mapOf({{0, 0}, {6, 0}, {6, 4}, {0, 4}});
+  CObservation2DRangeScan scan_;
+};
+
+TEST_F(AmbiguousRecoveryTest, WaitsForASureAnswerButNotForEver) {
+  FilterRecoveryParams params;
+  const auto alarm = static_cast<int>(params.monitor.patience);
+  EXPECT_EQ(stepsUntilMixed(params), alarm + static_cast<int>(params.patience));
+  params.patience = 0;
+  EXPECT_EQ(stepsUntilMixed(params), alarm);
+  params.patience = 10;
+  params.sure_weight = 0.3;  // two of about a half
+  EXPECT_EQ(stepsUntilMixed(params), alarm);
+  params.least_gain = 100.0;  // no hypothesis is so much better
+  EXPECT_EQ(stepsUntilMixed(params), 0);
+}
+
 TEST_F(FilterRecoveryTest, SearchesUntilSomethingIsFound) {
   FilterRecovery recovery(localizer_, seeder_, polygons_);
   CPosePDFParticles particles;
@@ -176,6 +223,9 @@ TEST_F(FilterRecoveryTest, IsTheSameForTheSameSeed) {
 TEST_F(FilterRecoveryTest, NamesBadParameters) {
   FilterRecoveryParams params;
   params.share = 1.5;
+  EXPECT_THROW(FilterRecovery(localizer_, seeder_, polygons_, params), InvalidParamsError);
+  params = {};
+  params.sure_weight = -0.1;
   EXPECT_THROW(FilterRecovery(localizer_, seeder_, polygons_, params), InvalidParamsError);
   params = {};
   params.judged_particles = 0;

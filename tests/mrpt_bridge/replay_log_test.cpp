@@ -119,6 +119,20 @@ TEST_F(ReplayLog, TakesMovementsOfObservationLogsFromOdometry) {
   EXPECT_NEAR(std::sqrt(covariance(2, 2)), 0.04, 1e-6);
 }
 
+TEST_F(ReplayLog, ReplacesTheRecordedNoiseOfActionsIfAsked) {
+  OdometryNoise noise;
+  noise.min_std_xy = 0.3;
+  const std::string bytes = frame({"A"}) + action(a_) + frame({"A"});
+  for (const bool replaces : {false, true}) {
+    noise.replaces_recorded = replaces;
+    const auto steps = load(bytes, {}, noise);
+    expectMovement(steps[1], a_);
+    const auto [covariance, mean] =
+        steps[1].action->getBestMovementEstimation()->poseChange->getCovarianceAndMean();
+    EXPECT_EQ(covariance(0, 0) > 0.09, replaces);
+  }
+}
+
 TEST_F(ReplayLog, StandsStillWhereThereIsNoOdometry) {
   const auto steps = load(scan() + scan() + odometry(a_) + scan() + odometry(a_ + b_) + scan());
   ASSERT_EQ(steps.size(), 4U);
