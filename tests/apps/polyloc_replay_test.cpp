@@ -2,14 +2,15 @@
 #include "driven_room.h"
 #include "tests/support/data_dir.h"
 #include <mrpt_polyloc/evaluation/truth.h>
+#include <mrpt_polyloc/mrpt_bridge/map_files.h>
 
 #include <gmock/gmock.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <nlohmann/json.hpp>
 
+#include <apps/polyloc-replay/replay_statistics.h>
 #include <cmath>
 #include <filesystem>
-#include <map>
 
 namespace mrpt_polyloc::test {
 namespace {
@@ -273,27 +274,45 @@ TEST_F(PolylocReplay, LocalizesTheDemoFromAnyFolder) {
   EXPECT_NEAR(last.phi * 180 / M_PI, 4.8, 5.0);
 }
 
-TEST_F(PolylocReplay, CompetesWithMrptsGridInTheSameProgram) {
+TEST_F(PolylocReplay, StartsMrptsOwnGridFilterToo) {
   if (!fs::exists(kMrptData + "localization_demo.rawlog")) GTEST_SKIP() << "mrpt-common is missing";
-  std::string text = readFile(kIni + "localization_demo.ini");
-  const auto replace = [&text](const std::string& from, const std::string& to) {
-    ASSERT_NE(text.find(from), std::string::npos) << from;
-    text.replace(text.find(from), from.size(), to);
-  };
-  replace("polygonMap2D_count=1", "polygonMap2D_count=0");
-  replace("occupancyGrid_count=0", "occupancyGrid_count=1");
-  replace("map_file=\n", "map_file=" + kMrptData + "localization_demo.simplemap.gz\n");
-  write("grid.ini", text +
-                        "[MetricMap_occupancyGrid_00_creationOpts]\nresolution=0.06\n"
-                        "[MetricMap_occupancyGrid_00_likelihoodOpts]\nlikelihoodMethod=4\n"
-                        "LF_decimation=20\nLF_stdHit=0.20\nLF_maxCorrsDistance=0.30\n"
-                        "LF_zHit=0.95\nLF_zRandom=0.05\nLF_maxRange=80\n");
-  const Outcome outcome = run(
-      "polyloc-replay",
-      {path("grid.ini"), "--truth", kDatasets + "localization_demo_truth.tum", "-o", path("grid")});
+  const Outcome outcome =
+      run("polyloc-replay", {kIni + "localization_demo_grid.ini", "--truth",
+                             kDatasets + "localization_demo_truth.tum", "-o", path("grid")});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(summary("grid")["maps"], "mrpt::maps::COccupancyGridMap2D");
   EXPECT_EQ(summary("grid")["success"], 1);
+}
+
+/// The median fit of the scans of a log at their true poses, moved along x by so much [m].
+double medianFit(const std::string& log, const std::string& map, const std::string& truth_file,
+                 double shift) {
+  const auto steps = loadReplayLog(kMrptData + log);
+  const replay::Truth truth = replay::loadTruthOfSteps(kDatasets + truth_file, steps);
+  const CPolygonMap2D polygons(loadMap(kMrptData + map).map);
+  std::vector<double> fits;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    mrpt::poses::CPosePDFParticles particle;
+    particle.resetDeterministic({truth[i]->x + shift, truth[i]->y, truth[i]->phi}, 1);
+    fits.push_back(filterFit(polygons, *steps[i].laser, particle, 1));
+  }
+  return percentile(fits, 0.5);
+}
+
+TEST_F(PolylocReplay, ShippedTruthsFitTheirScans) {
+  if (!fs::exists(kMrptData + "localization_demo.rawlog")) GTEST_SKIP() << "mrpt-common is missing";
+  const std::string demo = "localization_demo",
+                    sena = "2006-01ENE-21-SENA_Telecom Faculty_one_loop_only";
+  const std::string faculty = "malaga-cs-fac-building.simplemap.gz";
+  const auto fit = [&](bool is_demo, double shift) {
+    return is_demo ? medianFit(demo + ".rawlog", demo + ".simplemap.gz", demo + "_truth.tum", shift)
+                   : medianFit(sena + ".rawlog", faculty, "sena_loop_truth.tum", shift);
+  };
+  for (const bool is_demo : {true, false}) {
+    const double right = fit(is_demo, 0.0);
+    EXPECT_GT(right, -1.3) << is_demo;  // 13 cm a beam, obstacles and all
+    for (const double shift : {-0.25, 0.25}) EXPECT_LT(fit(is_demo, shift), right - 0.3) << is_demo;
+  }
 }
 
 TEST_F(PolylocReplay, FindsARobotThatIsCarriedTwiceThroughAnOffice) {
