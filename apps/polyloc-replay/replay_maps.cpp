@@ -89,7 +89,8 @@ ReplayMaps loadReplayMaps(const ReplayConfig& config) {
   for (const auto& map : maps.metric->maps) {
     const std::string name = map->GetRuntimeClass()->className;
     maps.metric_classes += (maps.metric_classes.empty() ? "" : ", ") + name;
-    if (map->isEmpty()) {
+    // MRPT 2.5.8 calls a grid empty that was read from a gridmap.
+    if (config.map_file.empty() && map->isEmpty()) {
       throw FormatError(config.path, "[MetricMap]", "the " + name + " is empty; no map_file?");
     }
   }

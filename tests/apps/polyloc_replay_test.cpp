@@ -284,6 +284,27 @@ TEST_F(PolylocReplay, StartsMrptsOwnGridFilterToo) {
   EXPECT_EQ(summary("grid")["success"], 1);
 }
 
+TEST_F(PolylocReplay, ReadsGridmapsAndMrptsTruth) {
+  if (!fs::exists(kMrptData + "uwb_ro-localization_demo.rawlog")) {
+    GTEST_SKIP() << "mrpt-common is missing";
+  }
+  std::string text = readFile(kIni + "localization_demo_grid.ini");
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    text.replace(text.rfind(from), from.size(), to);
+  };
+  replace("localization_demo.rawlog", "uwb_ro-localization_demo.rawlog");
+  replace("localization_demo.simplemap.gz", "uwb_ro-localization_demo_map.gridmap.gz");
+  const Outcome outcome =
+      run("polyloc-replay", {write("uwb.ini", text), "--truth",
+                             kMrptData + "uwb_ro-localization_demo_GT.txt", "-o", path("uwb")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(summary("uwb")["success"], 1);
+  // Its index is that of the pair: matched with the scan before or after, errors are above 0.3 m.
+  EXPECT_LT(summary("uwb")["median_error_m"].get<double>(), 0.25);
+  EXPECT_EQ(summary("uwb")["median_step"], 1.0);  // the first frame has no action before it
+}
+
 /// The median fit of the scans of a log at their true poses, moved along x by so much [m].
 double medianFit(const std::string& log, const std::string& map, const std::string& truth_file,
                  double shift) {
