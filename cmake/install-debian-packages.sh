@@ -8,7 +8,7 @@ set -euo pipefail
 # holds the data of MRPT's demos.
 packages=(
   build-essential cmake ninja-build ccache pkg-config
-  libmrpt-maps-dev libmrpt-obs-dev libmrpt-img-dev libmrpt-io-dev mrpt-common
+  libmrpt-maps-dev libmrpt-obs-dev libmrpt-img-dev libmrpt-io-dev libmrpt-slam-dev mrpt-common
   libcgal-dev libgmp-dev libmpfr-dev libboost-dev libeigen3-dev
   nlohmann-json3-dev libcli11-dev libtbb-dev libfftw3-dev zlib1g-dev
 )

@@ -79,6 +79,8 @@ std::string styleSheet(double scale) {
          stroke("faint", "#e0565c", 1.8, ";stroke-linecap:round;stroke-opacity:0.45") +
          stroke("path", "#15803d", 2.0, ";stroke-linejoin:round;stroke-opacity:0.85") +
          fill("stop", "#15803d") +
+         stroke("particle", "#b0189c", 2.4, ";stroke-linecap:round;stroke-opacity:0.5") +
+         stroke("truth", "#c2410c", 2.0, ";stroke-linejoin:round" + dash(7, 4)) +
          stroke("rival", "#8e44ad", 1.8, ";stroke-linejoin:round;stroke-linecap:round") +
          fill("rivaltip", "#8e44ad") +
          stroke("best", "#0b3d91", 3.2, ";stroke-linejoin:round;stroke-linecap:round") +

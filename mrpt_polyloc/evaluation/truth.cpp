@@ -138,6 +138,41 @@ std::vector<mrpt::math::TPose2D> matchTruth(const std::vector<RangeScan>& scans,
   return poses;
 }
 
+std::vector<std::optional<mrpt::math::TPose2D>> loadIndexedTruth(const std::string& path,
+                                                                 std::size_t count) {
+  std::vector<std::optional<mrpt::math::TPose2D>> poses(count);
+  bool is_empty = true;
+  forEachLine(path, [&](const auto& fields, const std::string& place) {
+    constexpr std::size_t kFields = 4;
+    if (fields.size() != kFields)
+      throw FormatError(path, place,
+                        "expected 4 fields (index x y phi), got " + std::to_string(fields.size()));
+    std::array<double, kFields> v{};
+    for (std::size_t i = 0; i < kFields; ++i)
+      if (!parseNumber(fields[i], v[i]) || !std::isfinite(v[i]))
+        throw FormatError(path, place, "'" + std::string(fields[i]) + "' is not a finite number");
+    const std::string name = "index " + std::string(fields[0]);
+    if (v[0] < 0.0 || v[0] != std::floor(v[0]))
+      throw FormatError(path, place, name + " is no whole number from 0");
+    if (v[0] >= static_cast<double>(count))
+      throw FormatError(path, place, name + ", but there are only " + std::to_string(count));
+    auto& pose = poses[static_cast<std::size_t>(v[0])];
+    if (pose) throw FormatError(path, place, name + " a second time");
+    pose = mrpt::math::TPose2D(v[1], v[2], v[3]);
+    is_empty = false;
+  });
+  if (is_empty) throw FormatError(path, "", "holds no pose");
+  return poses;
+}
+
+bool isIndexedTruth(const std::string& path) {
+  std::size_t count = 0;
+  forEachLine(path, [&](const auto& fields, const std::string&) {
+    if (count == 0) count = fields.size();
+  });
+  return count == 4;
+}
+
 std::vector<std::size_t> loadRows(const std::string& path, std::size_t rows) {
   std::vector<std::size_t> result;
   std::vector<bool> seen(rows, false);

@@ -5,6 +5,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,19 @@ std::string toTum(const std::vector<StampedPose>& poses);
 std::vector<mrpt::math::TPose2D> matchTruth(const std::vector<RangeScan>& scans,
                                             const std::vector<StampedPose>& truth,
                                             const std::string& path);
+
+/// Reads the ground truth of MRPT's data sets: `index x y phi` a line [m, rad], `#` comments, index
+/// a whole number, which nothing may be said of twice. Whatever the file leaves out is null.
+/// \param count of indices there can be
+/// \throws FormatError naming file and line: missing file, wrong number of fields, a number that is
+/// not finite, an index that is no whole number, not below `count` or there twice, no pose at all
+std::vector<std::optional<mrpt::math::TPose2D>> loadIndexedTruth(const std::string& path,
+                                                                 std::size_t count);
+
+/// Whether the first line of a truth file that holds more than a comment has four fields, as
+/// loadIndexedTruth() reads, rather than the eight of loadTum().
+/// \throws FormatError naming the file if it cannot be read
+bool isIndexedTruth(const std::string& path);
 
 /// Reads row numbers (0-based), one a line, `#` comments: the good rows of a data set.
 /// \throws FormatError naming file and line: not a number, out of [0, rows), a row twice.

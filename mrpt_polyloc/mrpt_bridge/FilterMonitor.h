@@ -10,11 +10,12 @@ struct FilterMonitorParams {
   std::size_t least_steps = 10;
   std::size_t window = 100;  ///< healthy steps remembered: places differ, so the range follows
   /// A step is bad if its fit lies more than so many standard deviations below the median of the
-  /// window. The deviations of successive scans are not Gaussian, hence more than the usual 3.
-  double deviations = 5.0;
+  /// window. The usual 3: what it costs to be wrong is a search, see FilterRecovery.
+  double deviations = 3.0;
   /// Least standard deviation assumed [log-likelihood per beam]: a robot that stands still repeats
-  /// its fit almost exactly.
-  double least_deviation = 0.02;
+  /// its fit almost exactly, and drives on into places that are mapped less well. Tuned, like the
+  /// two numbers above and below, on fits as of filterFit() in four rawlogs (doc/mrpt.md).
+  double least_deviation = 0.2;
   /// So many bad steps in a row mean lost; fewer are a passer-by.
   std::size_t patience = 3;
 

@@ -1,8 +1,9 @@
 #pragma once
 
 // What differs between MRPT 2.5.8, the only version this is built and tested with, and 2.15, as far
-// as MRPT's change log (read up to 2.14.8) and its headers tell. MRPT_VERSION is 0xMmp up to 2.10.1
-// (0x258 is 2.5.8) and 0xMMmmpp from 2.10.2 on; a test with >= is right for both.
+// as what was read of MRPT's change log (to 2.13, parts of it later) and headers tells.
+// MRPT_VERSION is 0xMmp up to 2.10.1 (0x258 is 2.5.8) and 0xMMmmpp from 2.10.2 on; a test with >=
+// is right for both.
 
 #include <mrpt/maps/CMetricMap.h>
 #include <mrpt/version.h>

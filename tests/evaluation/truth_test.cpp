@@ -137,6 +137,33 @@ TEST(MatchTruthTest, RefusesWhatDoesNotMatchOnce) {
   EXPECT_TRUE(matchTruth({}, {}, "t.tum").empty());
 }
 
+TEST_F(TruthTest, ReadsIndexedPoses) {
+  const auto poses = loadIndexedTruth(write("# index x y phi\n2 1.5 -2 0.25\n0\t3 4 -1 # c\n"), 4);
+  ASSERT_EQ(poses.size(), 4U);
+  EXPECT_EQ(poses[2], mrpt::math::TPose2D(1.5, -2, 0.25));
+  EXPECT_EQ(poses[0], mrpt::math::TPose2D(3, 4, -1));
+  EXPECT_FALSE(poses[1] || poses[3]);
+  EXPECT_TRUE(isIndexedTruth(path_));
+  EXPECT_FALSE(isIndexedTruth(write("# none\n1 0 0 0 0 0 0 1\n")));
+  EXPECT_FALSE(isIndexedTruth(write("")));
+}
+
+TEST_F(TruthTest, RefusesWrongIndexedPoses) {
+  const auto error = [&](const std::string& content) {
+    return formatErrorOf([&] { loadIndexedTruth(write(content), 2); });
+  };
+  EXPECT_THAT(error("0 1 2 3\n2 1 2 3\n"),
+              AllOf(HasSubstr(path_), HasSubstr("line 2"), HasSubstr("only 2")));
+  EXPECT_THAT(error("0 1 2 3\n0 1 2 3\n"), AllOf(HasSubstr("line 2"), HasSubstr("second time")));
+  EXPECT_THAT(error("0.5 1 2 3\n"), HasSubstr("no whole number"));
+  EXPECT_THAT(error("-1 1 2 3\n"), HasSubstr("no whole number"));
+  EXPECT_THAT(error("0 1 2\n"), HasSubstr("expected 4 fields"));
+  EXPECT_THAT(error("0 1 nan 3\n"), HasSubstr("'nan' is not a finite number"));
+  EXPECT_THAT(error("# nothing\n"), HasSubstr("holds no pose"));
+  EXPECT_THAT(formatErrorOf([] { loadIndexedTruth("/none/at/all", 2); }),
+              HasSubstr("cannot be read"));
+}
+
 TEST_F(TruthTest, ReadsRowNumbers) {
   EXPECT_THAT(loadRows(write("# good rows\n3\n 0 # the first\n\n7\r\n"), 8), ElementsAre(3, 0, 7));
   EXPECT_TRUE(loadRows(write("# none\n"), 8).empty());

@@ -1,0 +1,115 @@
+#include "replay_maps.h"
+
+#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/mrpt_bridge/GzInputStream.h>
+#include <mrpt_polyloc/mrpt_bridge/map_files.h>
+#include <mrpt_polyloc/mrpt_bridge/mrpt_archive.h>
+
+#include <mrpt/maps/CMetricMap.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/maps/TMetricMapTypesRegistry.h>
+
+#include <exception>
+
+namespace mrpt_polyloc::replay {
+namespace {
+
+using mrpt::maps::CMultiMetricMap;
+
+bool endsWith(const std::string& text, const std::string& tail) {
+  return text.size() >= tail.size() &&
+         text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
+}
+
+/// MRPT 2.5.8 leaves out a map whose class it does not know, without a word.
+void requireKnownClasses(const ReplayConfig& config) {
+  std::vector<std::string> keys;
+  config.text.getAllKeys("MetricMap", keys);
+  const std::string tail = "_count";
+  for (const std::string& key : keys) {
+    if (!endsWith(key, tail) || config.text.read_double("MetricMap", key, 0.0) <= 0.0) continue;
+    const std::string name = key.substr(0, key.size() - tail.size());
+    const auto& known =
+        mrpt::maps::internal::TMetricMapTypesRegistry::Instance().getAllRegistered();
+    if (known.count(name) == 0) {
+      throw FormatError(
+          config.path, "[MetricMap]",
+          key + ": no class of maps is known as '" + name + "'; is its library missing (-l)?");
+    }
+  }
+}
+
+/// Fills the maps that are built from a simplemap, or the grid from a gridmap.
+void loadMapFile(const std::string& file, CMultiMetricMap& map) {
+  GzInputStream stream(file);
+  const auto object = readObject(stream, 0);
+  if (const auto simple = std::dynamic_pointer_cast<mrpt::maps::CSimpleMap>(object)) {
+    if (simple->empty()) throw FormatError(file, "", "holds no observation");
+    map.loadFromSimpleMap(*simple);
+  } else if (const auto grid = std::dynamic_pointer_cast<mrpt::maps::COccupancyGridMap2D>(object)) {
+    const auto own = map.mapByClass<mrpt::maps::COccupancyGridMap2D>();
+    if (!own) return;  // as a map for the search alone
+    const auto options = own->likelihoodOptions;
+    *own = *grid;
+    own->likelihoodOptions = options;  // the ini's, not those of who stored the map
+  } else {
+    throw FormatError(file, "", "neither a simplemap nor a gridmap");
+  }
+}
+
+CMultiMetricMap::Ptr loadMetricMap(const ReplayConfig& config) {
+  requireKnownClasses(config);
+  auto map = CMultiMetricMap::Create();
+  try {
+    mrpt::maps::TSetOfMetricMapInitializers list;
+    list.loadFromConfigFile(config.text, "MetricMap");
+    map->setListOfMaps(list);
+  } catch (const std::exception& error) {
+    throw FormatError(config.path, "[MetricMap]", plainMessage(error));
+  }
+  if (map->maps.empty()) throw FormatError(config.path, "[MetricMap]", "asks for no map");
+  if (!config.map_file.empty()) {
+    try {
+      loadMapFile(config.map_file, *map);
+    } catch (const FormatError&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw FormatError(config.map_file, "", plainMessage(error));
+    }
+  }
+  return map;
+}
+
+}  // namespace
+
+ReplayMaps loadReplayMaps(const ReplayConfig& config) {
+  ReplayMaps maps;
+  maps.metric = loadMetricMap(config);
+  for (const auto& map : maps.metric->maps) {
+    const std::string name = map->GetRuntimeClass()->className;
+    maps.metric_classes += (maps.metric_classes.empty() ? "" : ", ") + name;
+    // MRPT 2.5.8 calls a grid empty that was read from a gridmap.
+    if (config.map_file.empty() && map->isEmpty()) {
+      throw FormatError(config.path, "[MetricMap]", "the " + name + " is empty; no map_file?");
+    }
+  }
+  const auto own = maps.metric->mapByClass<CPolygonMap2D>();
+  if (!config.search_map.empty()) {
+    maps.polygons_file = config.search_map;
+    maps.polygons = CPolygonMap2D(loadMap(config.search_map).map);
+  } else if (own) {
+    maps.polygons_file =
+        config.text.read_string("MetricMap_polygonMap2D_00_creationOpts", "file", "");
+    maps.polygons = *own;
+  } else if (!config.map_file.empty()) {
+    maps.polygons_file = config.map_file;
+    maps.polygons = CPolygonMap2D(loadMap(config.map_file).map);
+  } else {
+    throw FormatError(config.path, "[polyloc]",
+                      "no map to search in: give 'map', a polygonMap2D, or a map_file");
+  }
+  return maps;
+}
+
+}  // namespace mrpt_polyloc::replay
