@@ -163,8 +163,7 @@ std::vector<float> ViewIndex::lowerBounds(const Query& query) const {
   if (query.scan.isComplete() && query.rotations.isFullCircle() && std::isinf(query.reach)) {
     return fourierBounds(query.scan);
   }
-  // Bins of 16 degrees at k = 180. Of 32 they would take four fifths of the time, and leave 20
-  // times as many views in doubt.
+  // Bins of 16 degrees at k = 180. Of 32 they leave 20 times as many views in doubt.
   constexpr std::size_t kBinWidth = 8;
   const BinMeansBound bound(query.scan, kBinWidth, query.rotations);
   std::vector<float> bounds(views_.size());

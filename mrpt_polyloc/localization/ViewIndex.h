@@ -60,8 +60,6 @@ class ViewIndex {
   std::size_t bytes() const;
 
  private:
-  static constexpr std::size_t kLanes = 16;
-
   void addFeature(std::size_t view);
   std::vector<float> lowerBounds(const Query& query) const;
   std::vector<float> fourierBounds(const SampledPolarFunction& scan) const;
