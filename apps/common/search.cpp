@@ -17,10 +17,10 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -45,6 +45,9 @@ void checkTogether(const SearchOptions& search) {
   if (search.cell_range && search.method != "cells") {
     throw UsageError("--range is that of visibility cells: it needs --method cells");
   }
+  if (search.method == "exact" && !search.calibration_file.empty()) {
+    throw UsageError("--calibration is of scans with noise: it does not go with --method exact");
+  }
   if (search.method == "certified") return;
   if (!search.index.empty()) throw UsageError("--index needs --method certified");
   if (search.time_budget_ms > 0.0) throw UsageError("--time-budget needs --method certified");
@@ -54,10 +57,9 @@ void checkTogether(const SearchOptions& search) {
 std::optional<std::string> readIfThere(const std::string& path) {
   if (!std::filesystem::exists(path)) return std::nullopt;
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  content << file.rdbuf();
-  if (!file || content.str().empty()) throw FormatError(path, "", "cannot be read, or is empty");
-  return content.str();
+  std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file || content.empty()) throw FormatError(path, "", "cannot be read, or is empty");
+  return content;
 }
 
 std::shared_ptr<const GlobalLocalizer> makeShared(PolygonMap map, const std::string& index,

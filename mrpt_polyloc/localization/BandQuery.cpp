@@ -74,7 +74,8 @@ BandQuery::BandQuery(const RangeScan& scan, const RobustCostParams& cost) {
     }
   }
   const auto in_units = [](double meters) {
-    return static_cast<std::uint16_t>(std::clamp(meters * RangeUnits::kPerMeter, 0.0, 65000.0));
+    return static_cast<std::uint16_t>(std::clamp(meters * RangeUnits::kPerMeter, 0.0,
+                                                 static_cast<double>(RangeUnits::kGreatest)));
   };
   cap_short = in_units(cost.tau_short);
   cap_open = in_units(cost.tau_open);

@@ -42,7 +42,7 @@ struct BandQuery {
   alignas(64) std::array<std::uint16_t, kRoom> no_return{};  ///< all bits, or none
   std::uint16_t cap_short = 0, cap_open = 0;
   std::array<bool, kRoom> informs_from{};  ///< whether a vector from there on holds a beam
-  double phase = 0.0;                      ///< [rad], in [0, kBandBinWidth)
+  double phase = 0.0;                      ///< [rad]
   bool is_in_phase = true;                 ///< every beam meets one bin per heading
   bool has_no_returns = false;
   std::vector<Beam> beams;  ///< those that take part

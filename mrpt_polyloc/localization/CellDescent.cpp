@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 namespace mrpt_polyloc {
 namespace {
@@ -89,17 +91,39 @@ bool CellDescent::raise(unsigned limit, const std::function<bool()>& is_spent,
     within_[level].assign(above, waiting.end());
     waiting.erase(above, waiting.end());
   }
+  bool is_complete = !is_spent();
   for (std::size_t level = kTop; level > 0; --level) {
     const std::vector<Node>& nodes = within_[level];
     // Nodes of one index mostly stand together: each child's bands are then read once.
-    for (std::size_t first = 0, last = 0; first < nodes.size(); first = last) {
+    for (std::size_t first = 0, last = 0; is_complete && first < nodes.size(); first = last) {
       while (last < nodes.size() && nodes[last].index == nodes[first].index) ++last;
       expand(level, nodes, first, last);
-      if (is_spent()) return false;
+      is_complete = !is_spent();
     }
   }
   leaves.insert(leaves.end(), within_[0].begin(), within_[0].end());
-  return true;
+  return is_complete;
+}
+
+void CellDescent::dive(std::size_t width, std::vector<Node>& leaves) {
+  limit_ = std::numeric_limits<unsigned>::max();
+  for (std::size_t level = kTop; level > 0; --level) {
+    std::vector<Node> nodes = within_[level];
+    nodes.insert(nodes.end(), waiting_[level].begin(), waiting_[level].end());
+    const std::size_t kept = std::min(width, nodes.size());
+    std::partial_sort(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(kept), nodes.end(),
+                      [](const Node& a, const Node& b) {
+                        return std::tie(a.bound, a.index, a.heading) <
+                               std::tie(b.bound, b.index, b.heading);
+                      });
+    for (std::size_t i = 0; i < kept; ++i) expand(level, nodes, i, i + 1);
+  }
+  leaves.insert(leaves.end(), within_[0].begin(), within_[0].end());
+}
+
+bool CellDescent::isDone() const {
+  return std::all_of(waiting_.begin(), waiting_.end(),
+                     [](const std::vector<Node>& nodes) { return nodes.empty(); });
 }
 
 }  // namespace mrpt_polyloc

@@ -30,12 +30,17 @@ class CellDescent {
   CellDescent(const CellTree& tree, const BandQuery& query, const PosePrior& prior,
               const mrpt::math::TPoint2D& sensor);
 
-  bool isEmpty() const { return evaluated_ == 0; }  ///< the prior allows nothing
+  /// Nothing waits any more: every pose that the prior allows is in a leaf, or there is none.
+  bool isDone() const;
 
   /// Raises the limit: appends the (cell, heading) pairs bounded within it that were not before.
-  /// `is_spent` is asked now and then; true ends it early.
-  /// \returns false if so; the descent is then of no more use
+  /// `is_spent` is asked now and then; true ends it early, with the leaves found by then.
+  /// \returns false if so: there may be others within the limit
   bool raise(unsigned limit, const std::function<bool()>& is_spent, std::vector<Node>& leaves);
+
+  /// For when there is no time: the leaves that a descent by the `width` least bounds of each level
+  /// comes to.
+  void dive(std::size_t width, std::vector<Node>& leaves);
 
   std::size_t evaluated() const { return evaluated_; }  ///< nodes bounded so far
 

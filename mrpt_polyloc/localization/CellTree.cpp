@@ -3,6 +3,7 @@
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/CellTree.h>
+#include <mrpt_polyloc/localization/morton_code.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -29,19 +30,10 @@ constexpr std::size_t kArraysOfWalls = 2, kArraysWithOpen = 4;
 constexpr std::size_t kNearLow = 0, kWallHigh = 1, kNearHigh = 2, kWallLow = 3;
 constexpr std::uint16_t kOpenBit = 1;
 
-/// Interleaves the bits of column and row: blocks of any level are then runs in this order.
-std::uint64_t mortonCode(std::uint32_t column, std::uint32_t row) {
-  std::uint64_t code = 0;
-  for (unsigned bit = 0; bit < 32; ++bit) {
-    code |= static_cast<std::uint64_t>((column >> bit) & 1U) << (2 * bit);
-    code |= static_cast<std::uint64_t>((row >> bit) & 1U) << (2 * bit + 1);
-  }
-  return code;
-}
-
 std::uint16_t roundDown(float range) {
   const double units = std::floor(static_cast<double>(range) * RangeUnits::kPerMeter) - 1.0;
-  return static_cast<std::uint16_t>(std::clamp(units, 0.0, 65535.0));
+  return static_cast<std::uint16_t>(
+      std::clamp(units, 0.0, static_cast<double>(RangeUnits::kGreatest)));
 }
 /// Up to an even number.
 std::uint16_t roundUp(float range) {
@@ -131,6 +123,13 @@ CellTree::CellTree(const Triangulation& triangulation, const RangePredictor& pre
                    const CellTreeParams& params) {
   params.check();
   data_.cell_size = params.cell_size;
+  const BoundingBox& box = triangulation.box();
+  constexpr double kMostSquares = 1 << 30;
+  if ((box.max.x - box.min.x) * (box.max.y - box.min.y) >
+      kMostSquares * params.cell_size * params.cell_size) {
+    throw InvalidParamsError("cell_size: " + std::to_string(params.cell_size) +
+                             " gives too many cells for a map of this size");
+  }
   layOut(predictor.index(), takeCells(triangulation, params.threads));
   fill(predictor, params.threads);
 }
@@ -148,7 +147,7 @@ CellTree::CellTree(Data data) : data_(std::move(data)) {
   require(data_.first_view.size() == cells, "views");
   for (std::size_t i = 0; i < cells; ++i) {
     const std::size_t end =
-        data_.first_view[i] + (data_.levels[0].nodes[i].has_open != 0 ? 2U : 1U);
+        std::size_t{data_.first_view[i]} + (data_.levels[0].nodes[i].has_open != 0 ? 2U : 1U);
     require(end * kStride < data_.views.size(), "views");
     require(polygonSize(i) >= 3, "polygons");
   }
@@ -157,7 +156,7 @@ CellTree::CellTree(Data data) : data_(std::move(data)) {
     require(l.boxes.size() == l.nodes.size(), "boxes");
     for (const Node& node : l.nodes) {
       const std::size_t arrays = node.has_open != 0 ? kArraysWithOpen : kArraysOfWalls;
-      require((node.first_array + arrays) * kStride < l.codes.size(), "arrays");
+      require((std::size_t{node.first_array} + arrays) * kStride < l.codes.size(), "arrays");
       require(level == 0 || std::size_t{node.first_child} + node.child_count <=
                                 data_.levels[level - 1].nodes.size(),
               "children");

@@ -17,6 +17,8 @@ namespace mrpt_polyloc {
 struct RangeUnits {
   static constexpr double kPerMeter = 128.0;
   static constexpr std::uint16_t kUnbounded = std::numeric_limits<std::uint16_t>::max();
+  /// Ranges of a scan and lower bounds beyond this one, 508 m, are taken for it.
+  static constexpr std::uint16_t kGreatest = 65000;
 };
 
 struct CellTreeParams {
@@ -31,13 +33,14 @@ struct CellTreeParams {
 
 /// The index of the certified search: free space cut into convex cells, each with its range bands,
 /// and above them a tree of square blocks, each twice as wide as those below, that hold all that
-/// their cells hold, over a window of headings that doubles as well.
+/// their cells hold, over wider windows of headings.
 ///
-/// On level l a block is 2^l cell sizes wide, and its bands are over 2^l bins: entry b bounds what
-/// is seen in the bins b to b + 2^l - 1. Level 0 holds the cells themselves.
+/// On level l a block is 2^l cell sizes wide, and its bands are over kWindow[l] bins: entry b
+/// bounds what is seen in the bins b to b + kWindow[l] - 1. Level 0 holds the cells themselves.
 class CellTree {
  public:
   static constexpr std::size_t kLevels = 4;
+  /// [bins]; each divides kBandBins.
   static constexpr std::array<std::size_t, kLevels> kWindow = {1, 2, 4, 4};
   /// Entries of an array: the bins, and the first ones again, for whole vectors and windows that
   /// begin at any bin.

@@ -122,29 +122,29 @@ CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
   if (query.beams.empty()) return result;
   const Budget budget(params);
   CellDescent descent(tree, query, prior, sensor);
-  if (descent.isEmpty()) return result;
 
   // The first limits are below what noise alone costs: few leaves are within them, the right one
   // mostly among them, as bounds are well below costs.
   constexpr double kFirstLimit = 0.01;  // [m]
+  constexpr std::size_t kDiveWidth = 64;
   Starts starts(tree, query, params);
   double least = std::numeric_limits<double>::infinity();
-  unsigned certified = 0, target = query.units(kFirstLimit), limit = target;
+  unsigned certified = 0, limit = query.units(kFirstLimit);
   for (;;) {
     result.is_complete = descent.raise(
         limit, [&] { return budget.isSpent(descent.evaluated()); }, starts.leaves);
-    if (!result.is_complete) break;
+    if (!result.is_complete && starts.leaves.empty()) descent.dive(kDiveWidth, starts.leaves);
     starts.evaluate();
+    if (!result.is_complete) break;
     least = std::min(least, leastRefinedCost(starts.best(kRefined), refined_cost));
-    certified = limit;
-    if (std::isfinite(least)) {
-      target = query.units(least * (1.0 + params.margin_share) + params.margin);
-      if (target <= limit) break;
-    }
-    limit = std::isfinite(least) ? std::min(target, 2 * limit) : 2 * limit;
+    const bool is_found = std::isfinite(least);
+    const unsigned target =
+        is_found ? query.units(least * (1.0 + params.margin_share) + params.margin) : 2 * limit;
+    certified = std::min(limit, target);
+    if (target <= limit || descent.isDone()) break;
+    limit = std::min(target, 2 * limit);
   }
 
-  if (result.is_complete) certified = target;
   result.candidates = starts.best(params.max_candidates);
   result.certified_cost = query.meters(certified);
   result.evaluated = descent.evaluated();

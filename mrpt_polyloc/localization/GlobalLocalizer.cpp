@@ -62,7 +62,11 @@ struct GlobalLocalizer::Impl {
         triangulation(map),
         predictor(triangulation, std::move(index.edges)),
         cells(std::in_place, std::move(index.cells)),
-        build_seconds(watch.seconds()) {}
+        build_seconds(watch.seconds()) {
+    if (predictor.index().lists().cell_size != 2.0 * cells->cellSize()) {
+      throw InvalidMapError("index: its parts are not of one size");
+    }
+  }
 
   /// The poses to be refined, and what is known of the others.
   std::vector<TPose2D> search(const RangeScan& scan, const PosePrior& prior,
@@ -138,6 +142,8 @@ GlobalLocalizer::GlobalLocalizer(PolygonMap map, const std::string& index, const
     impl_ = std::make_unique<Impl>(std::move(map), std::move(parsed), params);
   } catch (const InvalidMapError& error) {
     throw FormatError(file, "", error.what());
+  } catch (const InvalidParamsError& error) {
+    throw FormatError(file, "", error.what());
   }
 }
 GlobalLocalizer::~GlobalLocalizer() = default;
@@ -171,6 +177,11 @@ LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePr
       rankCandidates(candidates, scan, prior, impl_->predictor,
                      {params.max_hypotheses, params.cost, params.refinement, params.hypotheses});
   result.certificate = found.certificate;
+  // What a budget left out may be as good.
+  if (result.status == LocalizationStatus::unique && found.certificate &&
+      !found.certificate->is_complete) {
+    result.status = LocalizationStatus::ambiguous;
+  }
   result.regions = std::move(found.regions);
   result.statistics.positions = found.statistics.positions;
   result.statistics.evaluated = found.statistics.evaluated;

@@ -18,9 +18,14 @@ bool isExplained(float range, float wall, float open) {
   return static_cast<double>(std::abs(range - predicted)) < kExplainedWithin;
 }
 
+/// What the best of many poses of another building costs at most, mostly: stands for the second
+/// pose where there is none, as a prior may have left out all others.
+constexpr double kChanceCost = 0.2;  // [m]
+
 double leadOf(const std::vector<RankedPose>& poses) {
-  if (poses.size() < 2) return kMostLead;
-  return std::min(kMostLead, std::log((poses[1].cost + kCostFloor) / (poses[0].cost + kCostFloor)));
+  const double second = poses.size() < 2 ? kChanceCost : poses[1].cost;
+  const double lead = std::log((second + kCostFloor) / (poses[0].cost + kCostFloor));
+  return std::clamp(lead, 0.0, kMostLead);
 }
 
 }  // namespace

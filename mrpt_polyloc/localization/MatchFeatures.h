@@ -20,7 +20,7 @@ struct MatchFeatures {
   /// Share of the hits that lie within 0.2 m of where the map predicts them, along the beam.
   double explained = 0.0;
   /// ln of the second best cost over the best (0.02 m added to both), at most 1: another building
-  /// has many poses that are about as bad. 1 if there is no second.
+  /// has many poses that are about as bad. Without a second, one of 0.2 m stands for it.
   double lead = 0.0;
   /// ln of the heading's standard deviation [rad] as the refinement gives it, every sector of ten
   /// degrees taken as one observation: a chance fit is held by few walls.

@@ -17,9 +17,11 @@ constexpr int kFirstTurn = kBins;  ///< where bin 0 of a chain's first vertex is
 /// Loops over bins go in whole blocks; what is beyond the end is masked.
 constexpr int kBlock = 8;
 constexpr std::size_t kVertexBlock = 16;
-constexpr float kUnbounded = 1e9F;      ///< an inverse range that bounds nothing [1/m]
-constexpr float kGreatest = 1e4F;       ///< inverse of the least range that is told from 0 [1/m]
-constexpr float kAngularSlack = 2e-5F;  ///< for the rounding of directions [rad]
+constexpr float kUnbounded = 1e9F;  ///< an inverse range that bounds nothing [1/m]
+constexpr float kGreatest = 1e4F;   ///< inverse of the least range that is told from 0 [1/m]
+/// Bins are taken to be wider by this at both ends [rad]: for the rounding of directions, and for
+/// beams that are a little off a scan's phase.
+constexpr float kAngularSlack = 2e-5F;
 
 using Depths = std::array<float, kUnwrapped + kBlock>;
 
@@ -66,14 +68,19 @@ BoundaryChains::Run extended(const BoundaryChains& chains, BoundaryChains::Run r
 
 struct RangeBandFinder::Workspace {
   Workspace() {
-    for (int b = 0; b < kUnwrapped + 2 * kBlock; ++b) {
-      cosines[static_cast<std::size_t>(b)] = static_cast<float>(std::cos(b * kBandBinWidth));
-      sines[static_cast<std::size_t>(b)] = static_cast<float>(std::sin(b * kBandBinWidth));
+    constexpr double kSlack = kAngularSlack;
+    for (std::size_t b = 0; b < first_cosines.size(); ++b) {
+      const double first = static_cast<double>(b) * kBandBinWidth - kSlack;
+      const double last = static_cast<double>(b + 1) * kBandBinWidth + kSlack;
+      first_cosines[b] = static_cast<float>(std::cos(first));
+      first_sines[b] = static_cast<float>(std::sin(first));
+      last_cosines[b] = static_cast<float>(std::cos(last));
+      last_sines[b] = static_cast<float>(std::sin(last));
     }
     passing.fill(kUnbounded);
   }
 
-  std::array<float, kUnwrapped + 2 * kBlock> cosines, sines;  ///< of the bins' first directions
+  Depths first_cosines, first_sines, last_cosines, last_sines;  ///< of the bins' ends
   Depths near, far;  ///< inverse: of the least, and of the greatest range
   /// Inverse ranges of the chain being followed, since it was before the bin from all of the cell;
   /// negative where it has been past it since.
@@ -184,15 +191,17 @@ POLYLOC_INLINE bool RangeBandFinder::Workspace::boundEdge(std::size_t i, EdgeBou
 /// the edge's bounds say.
 POLYLOC_INLINE void RangeBandFinder::Workspace::raise(const EdgeBounds& e, int first, int last) {
   // Within a bin a cosine exceeds those at its ends by this at most.
-  const float kBulge = 1.0F / static_cast<float>(std::cos(0.5 * kBandBinWidth));
+  const float kBulge = 1.0F / static_cast<float>(std::cos(0.5 * kBandBinWidth + kAngularSlack));
   for (int block = first; block <= last; block += kBlock) {
-    const float* __restrict__ c = cosines.data() + block;
-    const float* __restrict__ s = sines.data() + block;
+    const float* __restrict__ first_c = first_cosines.data() + block;
+    const float* __restrict__ first_s = first_sines.data() + block;
+    const float* __restrict__ last_c = last_cosines.data() + block;
+    const float* __restrict__ last_s = last_sines.data() + block;
     float* __restrict__ nears = near.data() + block;
     float* __restrict__ chain = passing.data() + block;
     const int count = last - block;
     for (int k = 0; k < kBlock; ++k) {
-      const float c0 = c[k], c1 = c[k + 1], s0 = s[k], s1 = s[k + 1];
+      const float c0 = first_c[k], c1 = last_c[k], s0 = first_s[k], s1 = last_s[k];
       const float t0 = e.nx * c0 + e.ny * s0, t1 = e.nx * c1 + e.ny * s1;
       const float high = std::min(std::min(std::max(t0, t1) * e.near_n + e.skip_n,
                                            std::max(c0 * e.near_x, c1 * e.near_x) + e.skip_x),
@@ -216,15 +225,16 @@ void RangeBandFinder::Workspace::followStretch(std::size_t& i, std::size_t count
   const auto binOf = [](float angle) { return static_cast<int>(std::floor(angle * kPerRadian)); };
   constexpr auto kTurn = static_cast<float>(kTwoPi);
   const auto kStart = static_cast<float>(kFirstTurn * kBandBinWidth);
-  float angle = bearing[i] + (bearing[i] < 0.0F ? kTurn : 0.0F) + kStart;
+  // Whole turns are added to the bearings, so that rounding does not add up along a chain.
+  float turns = (bearing[i] < 0.0F ? kTurn : 0.0F) + kStart;
+  float angle = bearing[i] + turns;
   int reset_from = binOf(angle + after[i] + kAngularSlack) + 1;
   int past_to = reset_from;  // bins below are behind the chain, or never were before it
   int touched_first = kUnwrapped, touched_last = -1;
   for (; i + 1 < count; ++i) {
-    float turn = bearing[i + 1] - bearing[i];
-    turn += turn < -kPiF ? kTurn : 0.0F;
-    turn -= turn >= kPiF ? kTurn : 0.0F;
-    const float next = angle + turn;
+    const float turn = bearing[i + 1] - bearing[i];
+    const float wrap = turn < -kPiF ? kTurn : turn >= kPiF ? -kTurn : 0.0F;
+    const float next = bearing[i + 1] + (turns + wrap);
     const float low = std::min(angle + before[i], next + before[i + 1]) - kAngularSlack;
     const float high = std::max(angle + after[i], next + after[i + 1]) + kAngularSlack;
     const int first = binOf(low), last = binOf(high);
@@ -237,6 +247,7 @@ void RangeBandFinder::Workspace::followStretch(std::size_t& i, std::size_t count
       touched_last = std::max(touched_last, last);
     }
     angle = next;
+    turns += wrap;
     // The chain is past a bin if it is from all of the cell: then the stretch blocked it.
     const int past_end = binOf(angle + before[i + 1] - kAngularSlack);
     for (int b = past_to; b < past_end; ++b) {

@@ -1,6 +1,7 @@
 #include <mrpt_polyloc/geometry/cpu_dispatch.h>
 #include <mrpt_polyloc/localization/RangeCode.h>
 #include <mrpt_polyloc/localization/SignaturePyramid.h>
+#include <mrpt_polyloc/localization/morton_code.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -16,16 +17,6 @@ namespace {
 /// Arrays of kBins codes per block: near and wall on level 0, low and high of each above.
 constexpr std::size_t kLeafArrays = 2;
 constexpr std::size_t kBlockArrays = 4;
-
-/// Interleaves the bits of column and row: blocks of any level are then runs in this order.
-std::uint64_t mortonCode(std::uint32_t column, std::uint32_t row) {
-  std::uint64_t code = 0;
-  for (unsigned bit = 0; bit < 32; ++bit) {
-    code |= static_cast<std::uint64_t>((column >> bit) & 1U) << (2 * bit);
-    code |= static_cast<std::uint64_t>((row >> bit) & 1U) << (2 * bit + 1);
-  }
-  return code;
-}
 
 /// low = min(low, values), high = max(high, values), over the bins and `window` headings: a heading
 /// later by one bin sees what is one bin further on.

@@ -4,7 +4,7 @@
 
 /// Written by polyloc-calibrate; do not edit.
 /// polyloc-calibrate SETS --own 1000000 --cluttered 60 --foreign 40
-///   --lost 0.005 --unique-right 0.995 --clutter-weight 0.1, on the sets
+///   --lost 0.003 --unique-right 0.995 --clutter-weight 0.1, on the sets
 ///   intel (454 scans)
 ///   fr079 (299 scans)
 ///   csail (202 scans)
@@ -14,13 +14,13 @@
 ///   locdemo (37 scans)
 namespace mrpt_polyloc::default_calibration {
 
-constexpr double kMatchIntercept = -15.52541;
-constexpr double kLeastMatchProbability = 0.1301946;
-constexpr double kWeightDecay = 4.450008;
-constexpr double kUniqueProbability = 0.9394047;
-constexpr double kPositionFactor = 1.779973;
-constexpr double kHeadingFactor = 1.186275;
+constexpr double kMatchIntercept = -14.84391;
+constexpr double kLeastMatchProbability = 0.01519767;
+constexpr double kWeightDecay = 4.612698;
+constexpr double kUniqueProbability = 0.7155625;
+constexpr double kPositionFactor = 1.786568;
+constexpr double kHeadingFactor = 1.18257;
 /// explained, lead, heading, seen
-constexpr std::array<double, 4> kMatchWeights = {6.658213, 10.69987, -1.216751, 3.892782};
+constexpr std::array<double, 4> kMatchWeights = {6.345567, 11.99969, -1.163249, 3.569302};
 
 }  // namespace mrpt_polyloc::default_calibration

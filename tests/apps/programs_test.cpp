@@ -113,6 +113,8 @@ INSTANTIATE_TEST_SUITE_P(
         localize("unknown_method", {"--method", "best"}, "unknown method 'best'"),
         localize("index", {"--method", "exhaustive", "--index", "a.idx"},
                  "--index needs --method certified"),
+        localize("calibration_exact", {"--method", "exact", "--calibration", "c.json"},
+                 "does not go with --method exact"),
         localize("time_budget", {"--method", "exact", "--time-budget", "50"},
                  "--time-budget needs --method certified"),
         localize("compass_nan", {"--compass", "nan"}, "'nan' is not a finite number"),
