@@ -107,14 +107,29 @@ void readExperiment(ReplayConfig& config) {
 }
 
 void readFilter(ReplayConfig& config) {
-  requireKnownKeys(
+  const IniSection filter(
       config.text, "PF_options",
       {"PF_algorithm", "resamplingMethod", "adaptiveSampleSize", "BETA", "sampleSize", "powFactor",
        "pfAuxFilterOptimal_MaximumSearchSamples", "max_loglikelihood_dyn_range",
        "pfAuxFilterStandard_FirstStageWeightsMonteCarlo", "pfAuxFilterOptimal_MLE"});
-  requireKnownKeys(config.text, "KLD_options",
-                   {"KLD_binSize_PHI_deg", "KLD_binSize_XY", "KLD_delta", "KLD_epsilon",
-                    "KLD_maxSampleSize", "KLD_minSampleSize", "KLD_minSamplesPerBin"});
+  const IniSection kld(config.text, "KLD_options",
+                       {"KLD_binSize_PHI_deg", "KLD_binSize_XY", "KLD_delta", "KLD_epsilon",
+                        "KLD_maxSampleSize", "KLD_minSampleSize", "KLD_minSamplesPerBin"});
+  // MRPT takes words for 0: looked at before it reads them.
+  constexpr double kMost = 1e9;
+  for (const char* name : {"BETA", "powFactor", "max_loglikelihood_dyn_range"}) {
+    filter.number(name, 0.0, 0.0, kMost);
+  }
+  for (const char* name : {"sampleSize", "pfAuxFilterOptimal_MaximumSearchSamples"}) {
+    filter.count(name, 1, 0, static_cast<std::size_t>(kMost));
+  }
+  for (const char* name : {"KLD_binSize_PHI_deg", "KLD_binSize_XY", "KLD_delta", "KLD_epsilon"}) {
+    kld.number(name, 0.0, 0.0, kMost);
+  }
+  for (const char* name : {"KLD_maxSampleSize", "KLD_minSampleSize"}) {
+    kld.count(name, 1, 1, static_cast<std::size_t>(kMost));
+  }
+  kld.number("KLD_minSamplesPerBin", 0.0, 0.0, kMost);
   const auto load = [&](const char* name, auto& options) {
     try {
       options.loadFromConfigFile(config.text, name);
@@ -191,7 +206,8 @@ void readPolyloc(ReplayConfig& config) {
                       "report_steps"});
   config.search_map = resolved(config.path, section.text("map", ""));
   config.sensor_label = section.text("sensor", "");
-  config.init = parseInit(section.text("init", toString(config.init)));
+  namingSection("polyloc",
+                [&] { config.init = parseInit(section.text("init", toString(config.init))); });
   config.seeds.particles = section.count("particles", config.seeds.particles, 1, 100'000'000);
   config.seeds.least_per_hypothesis =
       section.count("least_per_hypothesis", config.seeds.least_per_hypothesis, 1, 1'000'000);

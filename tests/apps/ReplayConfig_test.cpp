@@ -115,6 +115,13 @@ TEST_F(ReplayConfigTest, NamesWhatIsNotKnownOrOutOfRange) {
   EXPECT_THAT(errorOf("[LocalizationExperiment]\nparticles_count=100 200\n"),
               AllOf(HasSubstr("particles_count"), HasSubstr("one whole number")));
   EXPECT_THAT(errorOf("[LocalizationExperiment]\nuse_3D_poses=true\n"), HasSubstr("use_3D_poses"));
+  EXPECT_THAT(errorOf("[PF_options]\nBETA=half\n"),
+              AllOf(HasSubstr("[PF_options]"), HasSubstr("BETA"), HasSubstr("half")));
+  EXPECT_THAT(errorOf("[PF_options]\nsampleSize=many\n"), HasSubstr("sampleSize"));
+  EXPECT_THAT(errorOf("[KLD_options]\nKLD_binSize_XY=hello\n"), HasSubstr("KLD_binSize_XY"));
+  EXPECT_THAT(errorOf("[KLD_options]\nKLD_maxSampleSize=-3\n"), HasSubstr("KLD_maxSampleSize"));
+  EXPECT_THAT(errorOf("[polyloc]\ninit=anywhere\n"),
+              AllOf(HasSubstr("anywhere"), HasSubstr("polyloc")));
   EXPECT_THAT(errorOf("[PF_options]\nBETA=0.5\n"),
               AllOf(HasSubstr("[PF_options]"), HasSubstr("adaptiveSampleSize")));
   EXPECT_THROW(loadReplayConfig(path("none.ini")), FormatError);

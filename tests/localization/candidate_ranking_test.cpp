@@ -50,7 +50,8 @@ TEST_F(CandidateRanking, DoesNotDependOnTheOrder) {
 
 TEST_F(CandidateRanking, OfNoGoodCandidateIsNoMatch) {
   EXPECT_EQ(rank({}).status, LocalizationStatus::no_match);
-  EXPECT_EQ(rank({{6.2, 1.0, 2.0}}).status, LocalizationStatus::no_match);
+  EXPECT_EQ(rank({{3.0, 4.5, 1.0}}).status, LocalizationStatus::no_match);
+  EXPECT_NE(rank({{6.2, 1.0, 2.0}}).status, LocalizationStatus::unique);  // half of it fits
   PosePrior prior;
   prior.compass = PosePrior::Compass{truth_.phi + 1.5, 0.2};
   EXPECT_EQ(rank({truth_}, prior).status, LocalizationStatus::no_match);

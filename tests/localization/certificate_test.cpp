@@ -240,6 +240,53 @@ TEST(Certificate, HoldsUnderAPrior) {
   }
 }
 
+TEST(Certificate, OfAPriorThatAllowsNoCellEnds) {
+  // A block of the top level meets the disk, but none of its cells: there is a pillar.
+  const PolygonMap map = mapOf(rectangle(0, 0, 1.9, 1.9), {rectangle(0.5, 0.5, 1.4, 1.4)});
+  const GlobalLocalizer localizer(map, withRegions());
+  PosePrior prior;
+  prior.near = PosePrior::Disk{0.95, 0.95, 0.1};
+  const LocalizationResult result =
+      localizer.localize(simulatedScan(map, {0.25, 0.25, 0.3}), prior);
+  EXPECT_EQ(result.status, LocalizationStatus::no_match);
+  ASSERT_TRUE(result.certificate);
+  EXPECT_TRUE(result.certificate->is_complete);
+  EXPECT_TRUE(result.regions.empty());
+}
+
+TEST(Certificate, ABudgetTooSmallForAnythingStillGivesAnAnswer) {
+  GlobalLocalizerParams params = withRegions();
+  params.certified.max_nodes = 1;
+  const PolygonMap map = asymmetricRoom();
+  const GlobalLocalizer localizer(map, params);
+  const TPose2D truth{1.5, 2.1, 0.3};
+  const LocalizationResult result = localizer.localize(simulatedScan(map, truth));
+  ASSERT_TRUE(result.certificate);
+  EXPECT_FALSE(result.certificate->is_complete);
+  EXPECT_EQ(result.certificate->cost, 0.0);
+  EXPECT_EQ(result.status, LocalizationStatus::ambiguous);  // others may be as good
+  ASSERT_FALSE(result.hypotheses.empty());
+  EXPECT_LT(distanceBetween(result.hypotheses.front().pose_map_robot, truth), 0.02);
+}
+
+TEST(Certificate, HoldsBeyondTheGreatestRange) {
+  // 600 m long: ranges beyond 508 m are told from shorter ones alone.
+  const PolygonMap map = mapOf(rectangle(0, 0, 600, 8));
+  GlobalLocalizerParams params = withRegions();
+  params.cell_size = 0.5;
+  const GlobalLocalizer localizer(map, params);
+  const TPose2D truth{3.1, 4.2, 0.0};
+  const RangeScan scan = simulatedScan(map, truth, [] {
+    ScanOptions options;
+    options.max_range = 1000.0;
+    return options;
+  }());
+  const LocalizationResult result = localizer.localize(scan);
+  ASSERT_TRUE(result.certificate);
+  EXPECT_TRUE(std::any_of(result.regions.begin(), result.regions.end(),
+                          [&](const PoseRegion& region) { return holds(region, truth); }));
+}
+
 TEST(Certificate, SaysHowFarABudgetReached) {
   const PolygonMap map = floorPlan(largeFloor(), 4);
   std::mt19937 random(9);
