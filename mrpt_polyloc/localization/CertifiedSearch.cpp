@@ -2,9 +2,9 @@
 #include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/CellDescent.h>
 #include <mrpt_polyloc/localization/CertifiedSearch.h>
+#include <mrpt_polyloc/localization/Stopwatch.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <tuple>
 #include <unordered_map>
@@ -81,14 +81,12 @@ class Budget {
   explicit Budget(const CertifiedSearchParams& params) : params_(params) {}
   bool isSpent(std::size_t nodes) const {
     if (params_.max_nodes > 0 && nodes >= params_.max_nodes) return true;
-    const std::chrono::duration<double, std::milli> spent = Clock::now() - start_;
-    return params_.time_budget_ms > 0.0 && spent.count() >= params_.time_budget_ms;
+    return params_.time_budget_ms > 0.0 && 1e3 * watch_.seconds() >= params_.time_budget_ms;
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
   const CertifiedSearchParams& params_;
-  Clock::time_point start_ = Clock::now();
+  Stopwatch watch_;
 };
 
 /// So many are refined to find how good the best is.
@@ -140,8 +138,11 @@ CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
     const bool is_found = std::isfinite(least);
     const unsigned target =
         is_found ? query.units(least * (1.0 + params.margin_share) + params.margin) : 2 * limit;
-    certified = std::min(limit, target);
-    if (target <= limit || descent.isDone()) break;
+    if (target <= limit || descent.isDone()) {
+      certified = target;
+      break;
+    }
+    certified = limit;
     limit = std::min(target, 2 * limit);
   }
 
