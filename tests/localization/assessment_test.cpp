@@ -134,7 +134,10 @@ TEST(MatchFeaturesOf, AHalfHiddenScanByHand) {
   EXPECT_NEAR(features.lead, std::log(0.15 / 0.10), 1e-9);
   EXPECT_NEAR(features.seen, (2 + 1 + 2 + 2) / 8.0, 1e-6);
   EXPECT_NEAR(features.heading, std::log(0.1745), 1e-9);  // nothing known but the locality
-  EXPECT_EQ(matchFeatures({first}, first, cost, blocks).lead, 1.0);
+  // Without a second, one of 0.2 m stands for it: alone is no proof.
+  EXPECT_NEAR(matchFeatures({first}, first, cost, blocks).lead, std::log(0.22 / 0.10), 1e-9);
+  first.cost = 0.3;
+  EXPECT_EQ(matchFeatures({first}, first, cost, blocks).lead, 0.0);
 }
 
 TEST(CalibrationDefaults, SignsMakeSense) {
