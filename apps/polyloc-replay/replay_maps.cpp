@@ -96,14 +96,10 @@ ReplayMaps loadReplayMaps(const ReplayConfig& config) {
   }
   const auto own = maps.metric->mapByClass<CPolygonMap2D>();
   if (!config.search_map.empty()) {
-    maps.polygons_file = config.search_map;
     maps.polygons = CPolygonMap2D(loadMap(config.search_map).map);
   } else if (own) {
-    maps.polygons_file =
-        config.text.read_string("MetricMap_polygonMap2D_00_creationOpts", "file", "");
     maps.polygons = *own;
   } else if (!config.map_file.empty()) {
-    maps.polygons_file = config.map_file;
     maps.polygons = CPolygonMap2D(loadMap(config.map_file).map);
   } else {
     throw FormatError(config.path, "[polyloc]",

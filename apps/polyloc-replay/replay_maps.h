@@ -13,7 +13,6 @@ namespace mrpt_polyloc::replay {
 struct ReplayMaps {
   mrpt::maps::CMultiMetricMap::Ptr metric;  ///< as [MetricMap] says
   CPolygonMap2D polygons;
-  std::string polygons_file;
   std::string metric_classes;  ///< names of the classes in `metric`, for the reports
 };
 
