@@ -73,28 +73,48 @@ BandQuery::BandQuery(const RangeScan& scan, const RobustCostParams& cost) {
       chosen[bin] = &beam;
     }
   }
-  const auto in_units = [](double meters) {
-    return static_cast<std::uint16_t>(std::clamp(meters * RangeUnits::kPerMeter, 0.0,
-                                                 static_cast<double>(RangeUnits::kGreatest)));
+  for (std::size_t scale = 0; scale < RangeBytes::kScales; ++scale) {
+    Scaled& to = scaled[scale];
+    const double cap_gap = std::min(cost.tau_short, cost.tau_long);
+    to.cap_short = RangeBytes::down(cost.tau_short, scale);
+    to.cap_long = RangeBytes::down(cost.tau_long, scale);
+    to.cap_none = RangeBytes::down(cost.tau_none, scale);
+    to.cap_gap = RangeBytes::down(cap_gap, scale);
+    to.cap_open_gap = RangeBytes::down(std::min(cap_gap, cost.tau_open), scale);
+    for (std::size_t i = 0; i < kRoom; ++i) {
+      const Beam* beam = chosen[i % kBandBins];
+      const bool is_hit = beam != nullptr && beam->kind == BeamKind::hit;
+      to.short_range[i] = is_hit ? RangeBytes::up(beam->range, scale) : RangeBytes::kGreatest;
+      to.long_range[i] = beam == nullptr ? 0
+                         : is_hit        ? RangeBytes::down(beam->range, scale)
+                                         : RangeBytes::down(cost.none_share * beam->range, scale);
+    }
+  }
+  const auto in_view_units = [](double meters, double most = 65535.0) {
+    return static_cast<std::uint16_t>(std::clamp(meters / CellTree::kViewUnit, 0.0, most));
   };
-  cap_short = in_units(cost.tau_short);
-  cap_open = in_units(cost.tau_open);
-  short_range.fill(RangeUnits::kUnbounded);
-  cap_long.fill(in_units(cost.tau_long));
+  constexpr double kGreatestCap = 65535 / 6;  // sums of words must not overflow
+  cap_short_view = in_view_units(cost.tau_short, kGreatestCap);
+  cap_open_view = in_view_units(cost.tau_open, kGreatestCap);
+  constexpr int kMostOfAByte = RangeBytes::kGreatest / kVectors;
+  has_wide_caps = std::max({scaled[0].cap_short, scaled[0].cap_long, scaled[0].cap_none}) >
+                  kMostOfAByte;
   for (std::size_t i = 0; i < kRoom; ++i) {
     const Beam* beam = chosen[i % kBandBins];
+    short_view[i] = 0xFFFF;
     if (beam == nullptr) continue;
     if (beam->kind == BeamKind::hit) {
-      short_range[i] = long_range[i] = in_units(beam->range + 0.5 / RangeUnits::kPerMeter);
+      short_view[i] = long_view[i] = in_view_units(beam->range);
+      cap_long_view[i] = in_view_units(cost.tau_long, kGreatestCap);
     } else {
-      long_range[i] = in_units(cost.none_share * beam->range);
-      cap_long[i] = in_units(cost.tau_none);
-      no_return[i] = 0xFFFF;
+      long_view[i] = in_view_units(cost.none_share * beam->range);
+      cap_long_view[i] = in_view_units(cost.tau_none, kGreatestCap);
+      no_return[i] = 0xFF;
+      no_return_view[i] = 0xFFFF;
       has_no_returns = true;
     }
     if (i < kBandBins) beams.push_back(*beam);
   }
-  constexpr std::size_t kLanes = 32;
   for (std::size_t i = 0; i < kRoom; ++i) {
     for (std::size_t k = i; k < std::min(i + kLanes, kRoom) && !informs_from[i]; ++k) {
       informs_from[i] = chosen[k % kBandBins] != nullptr;

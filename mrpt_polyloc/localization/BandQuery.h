@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/localization/CellTree.h>
+#include <mrpt_polyloc/localization/RangeBytes.h>
 #include <mrpt_polyloc/localization/RangeScan.h>
 #include <mrpt_polyloc/localization/RobustCost.h>
 
@@ -18,30 +19,43 @@ namespace mrpt_polyloc {
 /// regular scanner whose spacing divides one degree meets exactly one bin per heading. Beams of
 /// other scanners, or off that phase, would meet two; they are left out where enough are in phase.
 struct BandQuery {
+  /// Bins that are looked at together: bytes of an AVX-512 register, or of two of AVX2.
+  static constexpr std::size_t kLanes = 64;
+  static constexpr std::size_t kVectors = 3;
   static constexpr std::size_t kRoom = 384;  ///< the circle twice, in whole vectors
 
   explicit BandQuery(const RangeScan& scan, const RobustCostParams& cost = {});
 
   /// Heading of the beam frame at the begin of heading bin h (0 to kBandBins - 1) [rad].
   double heading(double h) const { return h * kBandBinWidth - phase; }
-  /// The search cost [m] that stands for a sum of units.
+  /// The search cost [m] that stands for a sum of units, the finest ones of RangeBytes.
   double meters(unsigned units) const {
-    return static_cast<double>(units) / (RangeUnits::kPerMeter * static_cast<double>(beams.size()));
+    return static_cast<double>(units) * RangeBytes::kFinestUnit /
+           static_cast<double>(beams.size());
   }
   unsigned units(double meters) const {
-    return static_cast<unsigned>(meters * RangeUnits::kPerMeter *
+    return static_cast<unsigned>(meters / RangeBytes::kFinestUnit *
                                  static_cast<double>(beams.size()));
   }
 
-  /// By the bin of a beam's bearing, the circle twice [RangeUnits]: the range, where it is held
-  /// against what it may fall short of, or against what it may have passed. Without a beam the
-  /// former is the greatest and the latter 0, which cost nothing. A no-return falls short of
-  /// nothing, and has passed what stands within the range where a wall would count.
-  alignas(64) std::array<std::uint16_t, kRoom> short_range{}, long_range{};
-  alignas(64) std::array<std::uint16_t, kRoom> cap_long{};   ///< differs for no-returns
-  alignas(64) std::array<std::uint16_t, kRoom> no_return{};  ///< all bits, or none
-  std::uint16_t cap_short = 0, cap_open = 0;
+  /// The scan in RangeBytes of one scale, by the bin of a beam's bearing, the circle twice.
+  struct Scaled {
+    /// The range, where it is held against what it may fall short of, or against what it may have
+    /// passed. Without a beam the former is the greatest and the latter 0, which cost nothing. A
+    /// no-return falls short of nothing, and has passed what stands within the range where a wall
+    /// would count.
+    alignas(64) std::array<std::uint8_t, kRoom> short_range, long_range;
+    std::uint8_t cap_short, cap_long, cap_none;
+    std::uint8_t cap_gap, cap_open_gap;  ///< where no open edge may come before the wall, or may
+  };
+  std::array<Scaled, RangeBytes::kScales> scaled;
+  alignas(64) std::array<std::uint8_t, kRoom> no_return{};  ///< all bits, or none
+  /// The same in the units of CellTree::View; a beam's cap if it has passed a wall.
+  alignas(64) std::array<std::uint16_t, kRoom> short_view{}, long_view{}, cap_long_view{},
+      no_return_view{};
+  std::uint16_t cap_short_view = 0, cap_open_view = 0;
   std::array<bool, kRoom> informs_from{};  ///< whether a vector from there on holds a beam
+  bool has_wide_caps = false;              ///< sums of bytes might overflow
   double phase = 0.0;                      ///< [rad]
   bool is_in_phase = true;                 ///< every beam meets one bin per heading
   bool has_no_returns = false;
@@ -49,8 +63,12 @@ struct BandQuery {
 };
 
 /// Lower bound of the search cost, RobustCost summed over the query's beams [units], over all poses
-/// of a node: positions of its cells, headings from bin `heading` on, as many as its level's
-/// window.
+/// of a node: positions of its cells, headings from bin `heading` (less than kBandBins) on, as many
+/// as its level's window.
 unsigned bandCost(const CellTree::Bands& bands, const BandQuery& query, std::size_t heading);
+
+/// The search cost [m] at the pose in the middle of a cell whose heading is where bin `heading`
+/// begins; a beam that is not in phase may meet what the bin's end meets as well.
+float viewCost(const CellTree::View& view, const BandQuery& query, std::size_t heading);
 
 }  // namespace mrpt_polyloc

@@ -1,8 +1,8 @@
 #include <mrpt_polyloc/geometry/convex_cells.h>
-#include <mrpt_polyloc/geometry/cpu_dispatch.h>
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/CellTree.h>
+#include <mrpt_polyloc/localization/RangeBytes.h>
 #include <mrpt_polyloc/localization/morton_code.h>
 
 #include <tbb/blocked_range.h>
@@ -17,85 +17,45 @@
 
 namespace mrpt_polyloc {
 
-/// Arrays of a node with all its bands, near apart from wall; see CellTree::Bands.
-struct BandArrays {
-  std::array<std::array<std::uint16_t, CellTree::kStride>, 4> values;
-};
-
 namespace {
 
 constexpr std::size_t kStride = CellTree::kStride;
-constexpr std::size_t kArraysOfWalls = 2, kArraysWithOpen = 4;
-/// Array numbers of a node, see CellTree::Bands.
-constexpr std::size_t kNearLow = 0, kWallHigh = 1, kNearHigh = 2, kWallLow = 3;
-constexpr std::uint16_t kOpenBit = 1;
+constexpr std::uint8_t kOpenBit = 1;
 
-std::uint16_t roundDown(float range) {
-  const double units = std::floor(static_cast<double>(range) * RangeUnits::kPerMeter) - 1.0;
-  return static_cast<std::uint16_t>(
-      std::clamp(units, 0.0, static_cast<double>(RangeUnits::kGreatest)));
-}
-/// Up to an even number.
-std::uint16_t roundUp(float range) {
-  const double units =
-      2.0 * std::ceil(0.5 * (static_cast<double>(range) * RangeUnits::kPerMeter + 1.0));
-  return static_cast<std::uint16_t>(std::clamp(units, 0.0, 65534.0));
-}
-
-void encode(const RangeBands& bands, BandArrays& to) {
+/// The finest scale that tells most of a node's ranges.
+std::uint16_t scaleOf(const NodeBands& bands) {
+  constexpr std::size_t kTold = kBandBins * 97 / 100;
+  std::array<float, kBandBins> farthest;
   for (std::size_t b = 0; b < kBandBins; ++b) {
-    const float near_low = std::min(bands.wall_low[b], bands.open_low[b]);
-    const float near_high = std::min(bands.wall_high[b], bands.open_high[b]);
-    const bool may_be_open =
-        bands.open_low[b] <= bands.wall_high[b] && std::isfinite(bands.open_low[b]);
-    to.values[kNearLow][b] = roundDown(near_low);
-    to.values[kWallHigh][b] = static_cast<std::uint16_t>(
-        (std::isfinite(bands.wall_high[b]) ? roundUp(bands.wall_high[b]) : 65534) |
-        (may_be_open ? kOpenBit : 0));
-    to.values[kNearHigh][b] =
-        std::isfinite(near_high) ? roundUp(near_high) : RangeUnits::kUnbounded;
-    to.values[kWallLow][b] = roundDown(bands.wall_low[b]);
+    farthest[b] = std::isfinite(bands[b].wall_high) ? bands[b].wall_high : bands[b].near_low;
   }
+  std::nth_element(farthest.begin(), farthest.begin() + kTold, farthest.end());
+  std::uint16_t scale = 0;
+  while (scale + 1U < RangeBytes::kScales &&
+         static_cast<double>(farthest[kTold]) > RangeBytes::unit(scale) * RangeBytes::kGreatest) {
+    ++scale;
+  }
+  return scale;
 }
 
-/// The union of two bands, `from` taken `shift` bins on.
-POLYLOC_HOT_LOOP
-void widen(const std::uint16_t* __restrict__ from, std::size_t shift, std::size_t which,
-           std::uint16_t* __restrict__ to) {
-  const bool is_low = which == kNearLow || which == kWallLow;
-  const auto join = [&](std::size_t b, std::size_t source) {
-    const std::uint16_t a = to[b], c = from[source];
-    if (is_low) {
-      to[b] = std::min(a, c);
-    } else {
-      to[b] = std::max(a, c);
-      if (which == kWallHigh) {  // the greater one, its bit that of either
-        to[b] = static_cast<std::uint16_t>(to[b] | ((a | c) & kOpenBit));
-      }
-    }
-  };
-  for (std::size_t b = 0; b + shift < kBandBins; ++b) join(b, b + shift);
-  for (std::size_t b = kBandBins - shift; b < kBandBins; ++b) join(b, b + shift - kBandBins);
+/// A bound moved by what its computation in single precision may be off.
+double lessened(float range) {
+  return static_cast<double>(range) * (1.0 - 1e-5) - 1e-3;
+}
+double increased(float range) {
+  return static_cast<double>(range) * (1.0 + 1e-5) + 1e-3;
 }
 
-/// Bands over windows twice as wide.
-void doubleWindow(std::size_t window, BandArrays& arrays) {
-  const BandArrays before = arrays;
-  for (std::size_t which = 0; which < kArraysWithOpen; ++which) {
-    widen(before.values[which].data(), window, which, arrays.values[which].data());
-  }
-}
-
-void unite(const BandArrays& from, BandArrays& to) {
-  for (std::size_t which = 0; which < kArraysWithOpen; ++which) {
-    widen(from.values[which].data(), 0, which, to.values[which].data());
-  }
+/// Up to an even byte, its lowest bit then saying whether an edge may be open.
+std::uint8_t withOpenBit(std::uint8_t even_or_odd, bool may_be_open) {
+  const int even = std::min((even_or_odd + 1) / 2 * 2, RangeBytes::kGreatest - 1);
+  return static_cast<std::uint8_t>(even | (may_be_open ? kOpenBit : 0));
 }
 
 /// The bins, and the first ones again to the array's end.
-void copyAround(const std::uint16_t* from, std::uint16_t* to) {
-  std::copy_n(from, kBandBins, to);
-  std::copy_n(from, kStride - kBandBins, to + kBandBins);
+template <class T>
+void repeat(T* array) {
+  std::copy_n(array, kStride - kBandBins, array + kBandBins);
 }
 
 BoundingBox boxOf(const TPoint2D* vertices, std::size_t count) {
@@ -144,19 +104,14 @@ CellTree::CellTree(Data data) : data_(std::move(data)) {
               data_.first_vertex.back() == data_.vertices.size() &&
               std::is_sorted(data_.first_vertex.begin(), data_.first_vertex.end()),
           "polygons");
-  require(data_.first_view.size() == cells, "views");
-  for (std::size_t i = 0; i < cells; ++i) {
-    const std::size_t end =
-        std::size_t{data_.first_view[i]} + (data_.levels[0].nodes[i].has_open != 0 ? 2U : 1U);
-    require(end * kStride < data_.views.size(), "views");
-    require(polygonSize(i) >= 3, "polygons");
-  }
+  require(data_.views.size() == cells * kViewArrays * kStride + 1, "views");
+  for (std::size_t i = 0; i < cells; ++i) require(polygonSize(i) >= 3, "polygons");
   for (std::size_t level = 0; level < kLevels; ++level) {
     const Level& l = data_.levels[level];
     require(l.boxes.size() == l.nodes.size(), "boxes");
+    require(l.codes.size() == l.nodes.size() * kArrays * kStride + 1, "arrays");
     for (const Node& node : l.nodes) {
-      const std::size_t arrays = node.has_open != 0 ? kArraysWithOpen : kArraysOfWalls;
-      require((std::size_t{node.first_array} + arrays) * kStride < l.codes.size(), "arrays");
+      require(node.scale < RangeBytes::kScales, "scale");
       require(level == 0 || std::size_t{node.first_child} + node.child_count <=
                                 data_.levels[level - 1].nodes.size(),
               "children");
@@ -196,7 +151,7 @@ void CellTree::layOut(const VisibleEdgeIndex& index, Squares squares) {
   for (std::size_t cell = 0; cell < places.size(); ++cell) {
     const std::int64_t number = index.cellNumber(middle(cell));
     const bool has_open = number < 0 || index.cell(number).open_runs > 0;
-    data_.levels[0].nodes.push_back({0, 0, 0, has_open ? 1U : 0U});
+    data_.levels[0].nodes.push_back({0, 0, static_cast<std::uint16_t>(has_open ? 1 : 0), 0});
   }
   for (std::size_t level = 1; level < kLevels; ++level) {
     const Level& below = data_.levels[level - 1];
@@ -219,45 +174,45 @@ void CellTree::layOut(const VisibleEdgeIndex& index, Squares squares) {
     places = std::move(blocks);
   }
   for (Level& level : data_.levels) {
-    std::uint32_t arrays = 0;
-    for (Node& node : level.nodes) {
-      node.first_array = arrays;
-      arrays += static_cast<std::uint32_t>(node.has_open != 0 ? kArraysWithOpen : kArraysOfWalls);
-    }
-    level.codes.resize(static_cast<std::size_t>(arrays) * kStride + 1);  // beams read one ahead
+    level.codes.resize(level.nodes.size() * kArrays * kStride + 1);  // beams read one ahead
   }
-  std::uint32_t views = 0;
-  for (const Node& node : data_.levels[0].nodes) {
-    data_.first_view.push_back(views);
-    views += node.has_open != 0 ? 2 : 1;
-  }
-  data_.views.resize(static_cast<std::size_t>(views) * kStride + 1);
+  data_.views.resize(data_.levels[0].nodes.size() * kViewArrays * kStride + 1);
 }
 
-void CellTree::storeBands(const BandArrays& arrays, std::size_t level, std::size_t node) {
+void CellTree::storeBands(const NodeBands& bands, std::size_t level, std::size_t node) {
   Level& l = data_.levels[level];
-  const Node& n = l.nodes[node];
-  const std::size_t count = n.has_open != 0 ? kArraysWithOpen : kArraysOfWalls;
-  for (std::size_t which = 0; which < count; ++which) {
-    copyAround(arrays.values[which].data(), &l.codes[(n.first_array + which) * kStride]);
+  Node& n = l.nodes[node];
+  n.scale = scaleOf(bands);
+  std::uint8_t* const near_low = &l.codes[node * kArrays * kStride];
+  std::uint8_t* const wall_high = near_low + kStride;
+  std::uint8_t* const gap_low = wall_high + kStride;
+  std::uint8_t* const gap_high = gap_low + kStride;
+  for (std::size_t b = 0; b < kBandBins; ++b) {
+    const BinBand& band = bands[b];
+    near_low[b] = RangeBytes::down(lessened(band.near_low), n.scale);
+    wall_high[b] = RangeBytes::up(increased(band.wall_high), n.scale);
+    const std::uint8_t low =
+        band.hasGap() ? RangeBytes::up(increased(band.gap_low), n.scale) : RangeBytes::kGreatest;
+    gap_low[b] = withOpenBit(low, band.may_be_open);
+    gap_high[b] = band.hasGap() ? RangeBytes::down(lessened(band.gap_high), n.scale) : 0;
+    if (gap_high[b] <= gap_low[b]) gap_high[b] = 0;
   }
+  for (std::size_t array = 0; array < kArrays; ++array) repeat(near_low + array * kStride);
 }
 
 void CellTree::storeView(const PredictedRanges& ranges, std::size_t cell) {
-  std::array<std::uint16_t, kStride> near{}, wall{};
+  std::uint16_t* const near = &data_.views[cell * kViewArrays * kStride];
+  std::uint16_t* const wall = near + kStride;
   const auto in_units = [](float range) {
-    return static_cast<std::uint16_t>(
-        std::min(range * static_cast<float>(RangeUnits::kPerMeter), 65534.0F));
+    constexpr double kMost = 65535.0;
+    return static_cast<std::uint16_t>(std::min(static_cast<double>(range) / kViewUnit, kMost));
   };
   for (std::size_t b = 0; b < kBandBins; ++b) {
-    const bool is_open = ranges.open[b] < ranges.wall[b];
     near[b] = in_units(std::min(ranges.wall[b], ranges.open[b]));
-    wall[b] = static_cast<std::uint16_t>((in_units(ranges.wall[b]) & ~kOpenBit) |
-                                         (is_open ? kOpenBit : 0));
+    wall[b] = in_units(ranges.wall[b]);
   }
-  std::uint16_t* to = &data_.views[data_.first_view[cell] * kStride];
-  copyAround(wall.data(), to);
-  if (data_.levels[0].nodes[cell].has_open != 0) copyAround(near.data(), to + kStride);
+  repeat(near);
+  repeat(wall);
 }
 
 void CellTree::fill(const RangePredictor& predictor, int threads) {
@@ -266,30 +221,33 @@ void CellTree::fill(const RangePredictor& predictor, int threads) {
   const BeamPattern pattern(bearings);
   const auto build = [&](std::size_t first, std::size_t last) {
     RangeBandFinder finder(predictor.index());
-    RangeBands bands;
-    PredictedRanges ranges;
+    RangeBands cell_ranges;
+    PredictedRanges view;
     // Depth first: what a node hands up is over windows of its own level's width.
     const auto visit = [&](const auto& self, std::size_t level, std::size_t node,
-                           BandArrays& arrays) -> void {
+                           NodeBands& bands) -> void {
+      std::size_t window = 1;
       if (level == 0) {
-        finder.find(polygon(node), polygonSize(node), bands);
-        encode(bands, arrays);
-        const TPoint2D p = middle(node);
-        predictor.predict({p.x, p.y, 0.0}, pattern, ranges);
-        storeView(ranges, node);
+        finder.find(polygon(node), polygonSize(node), cell_ranges);
+        bandsOfCell(cell_ranges, bands);
       } else {
         const Node& n = data_.levels[level].nodes[node];
-        BandArrays child;
+        NodeBands child;
         for (std::uint32_t i = 0; i < n.child_count; ++i) {
-          self(self, level - 1, n.first_child + i, i == 0 ? arrays : child);
-          if (i > 0) unite(child, arrays);
+          self(self, level - 1, n.first_child + i, i == 0 ? bands : child);
+          if (i > 0) unite(child, 0, bands);
         }
-        if (kWindow[level] > kWindow[level - 1]) doubleWindow(kWindow[level - 1], arrays);
+        window = kWindow[level - 1];
       }
-      storeBands(arrays, level, node);
+      for (; window < kWindow[level]; window *= 2) doubleWindow(window, bands);
+      storeBands(bands, level, node);
+      if (level > 0) return;
+      const TPoint2D p = middle(node);
+      predictor.predict({p.x, p.y, 0.0}, pattern, view);
+      storeView(view, node);
     };
-    BandArrays arrays;
-    for (std::size_t i = first; i < last; ++i) visit(visit, kLevels - 1, i, arrays);
+    NodeBands bands;
+    for (std::size_t i = first; i < last; ++i) visit(visit, kLevels - 1, i, bands);
   };
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
@@ -298,18 +256,17 @@ void CellTree::fill(const RangePredictor& predictor, int threads) {
   });
 }
 
-CellTree::Bands CellTree::middleView(std::size_t cell) const {
-  const std::uint16_t* wall = &data_.views[data_.first_view[cell] * kStride];
-  if (data_.levels[0].nodes[cell].has_open == 0) return {wall, wall, nullptr, nullptr};
-  return {wall + kStride, wall, wall + kStride, wall};
+CellTree::View CellTree::middleView(std::size_t cell) const {
+  const std::uint16_t* near = &data_.views[cell * kViewArrays * kStride];
+  return {near, near + kStride};
 }
 
 CellTree::Bands CellTree::bands(std::size_t level, std::size_t node) const {
   const Level& l = data_.levels[level];
   const Node& n = l.nodes[node];
-  const std::uint16_t* first = &l.codes[n.first_array * kStride];
-  if (n.has_open == 0) return {first, first + kStride, nullptr, nullptr};
-  return {first, first + kStride, first + 2 * kStride, first + 3 * kStride};
+  const std::uint8_t* first = &l.codes[node * kArrays * kStride];
+  return {first,   first + kStride,  first + 2 * kStride, first + 3 * kStride,
+          n.scale, n.has_open != 0};
 }
 
 TPoint2D CellTree::middle(std::size_t cell) const {
@@ -321,11 +278,10 @@ TPoint2D CellTree::middle(std::size_t cell) const {
 std::size_t CellTree::bytes() const {
   std::size_t sum = data_.vertices.size() * sizeof(TPoint2D) +
                     data_.views.size() * sizeof(std::uint16_t) +
-                    data_.first_view.size() * sizeof(std::uint32_t) +
                     data_.first_vertex.size() * sizeof(std::uint32_t);
   for (const Level& level : data_.levels) {
     sum += level.nodes.size() * sizeof(Node) + level.boxes.size() * sizeof(BoundingBox) +
-           level.codes.size() * sizeof(std::uint16_t);
+           level.codes.size();
   }
   return sum;
 }

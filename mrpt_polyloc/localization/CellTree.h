@@ -1,25 +1,17 @@
 #pragma once
 
 #include <mrpt_polyloc/geometry/Triangulation.h>
+#include <mrpt_polyloc/localization/NodeBands.h>
 #include <mrpt_polyloc/localization/RangeBands.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <utility>
 #include <vector>
 
 namespace mrpt_polyloc {
-
-/// Ranges as integers, rounded so that bands only widen: by one unit, which also covers a scan's
-/// ranges that are rounded to the nearest unit.
-struct RangeUnits {
-  static constexpr double kPerMeter = 128.0;
-  static constexpr std::uint16_t kUnbounded = std::numeric_limits<std::uint16_t>::max();
-  /// Ranges of a scan and lower bounds beyond this one, 508 m, are taken for it.
-  static constexpr std::uint16_t kGreatest = 65000;
-};
 
 struct CellTreeParams {
   /// Side of the squares of the finest level [m]. Bounds get tighter, memory and time of building
@@ -40,21 +32,25 @@ struct CellTreeParams {
 class CellTree {
  public:
   static constexpr std::size_t kLevels = 4;
-  /// [bins]; each divides kBandBins.
-  static constexpr std::array<std::size_t, kLevels> kWindow = {1, 2, 4, 4};
+  /// [bins]; each divides kBandBins. On level 0 a turn by the window moves what is seen about as
+  /// much as a way across the cell does.
+  static constexpr std::array<std::size_t, kLevels> kWindow = {2, 2, 4, 4};
   /// Entries of an array: the bins, and the first ones again, for whole vectors and windows that
   /// begin at any bin.
   static constexpr std::size_t kStride = 192;
+  static constexpr std::size_t kArrays = 4;  ///< of a node, see Bands
+  static constexpr std::size_t kViewArrays = 2;   ///< of a cell, see View
+  static constexpr double kViewUnit = 1.0 / 128;  ///< [m]
 
   struct Node {
     std::uint32_t first_child, child_count;  ///< in the level below; unused on level 0
-    std::uint32_t first_array;               ///< of the level's arrays
-    std::uint32_t has_open;                  ///< 1: four arrays, with open edges; 0: two
+    std::uint16_t has_open;                  ///< 1: an open edge may be seen
+    std::uint16_t scale;                     ///< of RangeBytes
   };
   struct Level {
     std::vector<Node> nodes;
     std::vector<BoundingBox> boxes;
-    std::vector<std::uint16_t> codes;  ///< the nodes' arrays, and one entry more
+    std::vector<std::uint8_t> codes;  ///< the nodes' arrays, and one entry more
   };
   /// All that a tree is made of, to be stored.
   struct Data {
@@ -62,17 +58,21 @@ class CellTree {
     std::vector<TPoint2D> vertices;           ///< of the cells' polygons
     std::vector<std::uint32_t> first_vertex;  ///< of each cell, and the end
     std::array<Level, kLevels> levels;
-    std::vector<std::uint32_t> first_view;  ///< array of each cell in `views`
-    std::vector<std::uint16_t> views;       ///< wall and near, or wall alone; and one entry more
+    std::vector<std::uint16_t> views;  ///< of each cell near and wall; and one entry more
   };
 
-  /// The bands of a node [RangeUnits]. `wall_high` is even but for its lowest bit, which is set
-  /// where an open edge may come before the wall. Without open edges near is wall.
+  /// A BinBand of each bin, as RangeBytes of a scale. In a node that sees open edges the lowest bit
+  /// of gap_low tells where one may come before the wall.
   struct Bands {
-    const std::uint16_t* near_low;
-    const std::uint16_t* wall_high;
-    const std::uint16_t* near_high;  ///< null without open edges
-    const std::uint16_t* wall_low;   ///< null without open edges
+    const std::uint8_t *near_low, *wall_high, *gap_low, *gap_high;
+    std::size_t scale;
+    bool has_open;
+  };
+
+  /// What is predicted from the middle of a cell in the directions where the bins begin [kViewUnit]:
+  /// the range to the first wall, and to an open edge if that comes before.
+  struct View {
+    const std::uint16_t *near, *wall;
   };
 
   /// \param predictor its index over squares of twice the cell size
@@ -100,8 +100,7 @@ class CellTree {
   }
   /// The mean of its vertices [m].
   TPoint2D middle(std::size_t cell) const;
-  /// What is predicted from there in the directions where the bins begin: bands without width.
-  Bands middleView(std::size_t cell) const;
+  View middleView(std::size_t cell) const;
 
   std::size_t bytes() const;
 
@@ -110,7 +109,7 @@ class CellTree {
   Squares takeCells(const Triangulation& triangulation, int threads);
   void layOut(const VisibleEdgeIndex& index, Squares squares);
   void fill(const RangePredictor& predictor, int threads);
-  void storeBands(const struct BandArrays& arrays, std::size_t level, std::size_t node);
+  void storeBands(const NodeBands& bands, std::size_t level, std::size_t node);
   void storeView(const PredictedRanges& ranges, std::size_t cell);
 
   Data data_;

@@ -37,42 +37,52 @@ class Starts {
   /// Takes the leaves added since.
   void evaluate() {
     for (std::size_t i = costs_.size(); i < leaves.size(); ++i) {
-      costs_.push_back(bandCost(tree_.middleView(leaves[i].index), query_, leaves[i].heading));
-      least_ = std::min(least_, costs_.back());
+      costs_.push_back(std::numeric_limits<float>::infinity());
+      headings_.push_back(0);
+      const CellTree::View view = tree_.middleView(leaves[i].index);
+      for (std::uint32_t k = 0; k < CellTree::kWindow[0]; ++k) {
+        const std::uint32_t heading = (leaves[i].heading + k) % kBandBins;
+        const float cost = viewCost(view, query_, heading);
+        if (cost >= costs_[i]) continue;
+        costs_[i] = cost;
+        headings_[i] = heading;
+      }
+      least_ = std::min(least_, costs_[i]);
     }
   }
 
   /// The best leaf of each place, of those within the starting margin of the best of all.
   std::vector<PoseCandidate> best(std::size_t most) const {
-    const double least = query_.meters(least_);
-    const unsigned limit = query_.units(least * (1.0 + params_.start_share) + params_.start_margin);
+    const auto limit = static_cast<float>(static_cast<double>(least_) * (1.0 + params_.start_share) +
+                                          params_.start_margin);
     std::unordered_map<std::int64_t, std::size_t> places;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
       if (costs_[i] > limit) continue;
-      const std::int64_t place = placeOf(pose(i), leaves[i].heading);
+      const std::int64_t place = placeOf(pose(i), headings_[i]);
       const auto [found, is_new] = places.try_emplace(place, i);
       if (!is_new && costs_[i] < costs_[found->second]) found->second = i;
     }
-    std::vector<std::pair<unsigned, std::size_t>> order;
+    std::vector<std::pair<float, std::size_t>> order;
     for (const auto& [place, i] : places) order.emplace_back(costs_[i], i);
     std::sort(order.begin(), order.end());
     if (order.size() > most) order.resize(most);
     std::vector<PoseCandidate> candidates;
-    for (const auto& [cost, i] : order) candidates.push_back({pose(i), query_.meters(cost)});
+    for (const auto& [cost, i] : order) candidates.push_back({pose(i), static_cast<double>(cost)});
     return candidates;
   }
 
  private:
   mrpt::math::TPose2D pose(std::size_t leaf) const {
     const TPoint2D p = tree_.middle(leaves[leaf].index);
-    return {p.x, p.y, query_.heading(leaves[leaf].heading)};
+    return {p.x, p.y, query_.heading(headings_[leaf])};
   }
 
   const CellTree& tree_;
   const BandQuery& query_;
   const CertifiedSearchParams& params_;
-  std::vector<unsigned> costs_;  ///< [units], of the leaves
-  unsigned least_ = std::numeric_limits<unsigned>::max() / 2;
+  std::vector<float> costs_;             ///< in the middle of the leaves [m]
+  std::vector<std::uint32_t> headings_;  ///< of the least cost in the window
+  float least_ = std::numeric_limits<float>::infinity();
 };
 
 /// Tells when the nodes or the time are used up.

@@ -34,10 +34,10 @@ struct CertifiedSearchParams {
   void check() const;
 };
 
-/// A cell and a bin of headings that could not be excluded.
+/// A cell and a window of headings, of kWindow[0] bins, that could not be excluded.
 struct RemainingCell {
   std::uint32_t cell;     ///< of the CellTree
-  std::uint16_t heading;  ///< bin of BandQuery::heading()
+  std::uint16_t heading;  ///< first bin, of BandQuery::heading()
   float bound;            ///< no pose of it has a lower search cost [m]
 };
 

@@ -118,9 +118,10 @@ std::vector<TPose2D> GlobalLocalizer::Impl::searchCertified(const RangeScan& sca
   if (params.keep_regions) {
     for (const RemainingCell& remaining : found.regions) {
       const TPoint2D* polygon = cells->polygon(remaining.cell);
+      const double first = remaining.heading, window = CellTree::kWindow[0];
       result.regions.push_back({{polygon, polygon + cells->polygonSize(remaining.cell)},
-                                query.heading(remaining.heading),
-                                query.heading(remaining.heading + 1.0),
+                                query.heading(first),
+                                query.heading(first + window),
                                 static_cast<double>(remaining.bound)});
     }
   }

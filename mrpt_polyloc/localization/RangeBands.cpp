@@ -90,6 +90,14 @@ struct RangeBandFinder::Workspace {
   std::vector<float> before, after;  ///< of the middle's bearing, by how much others differ
   std::vector<TPoint2D> cell;        ///< relative to the middle
   float low_x = 0, high_x = 0, low_y = 0, high_y = 0;  ///< of the cell
+  /// Between which inverse ranges each edge followed may be hit, bin by bin.
+  struct EdgeHit {
+    int bin;
+    float near, far;
+  };
+  std::vector<EdgeHit> hits;
+  std::array<std::size_t, kBandBins + 1> first_hit;  ///< of a bin, in `sorted_hits`
+  std::vector<EdgeHit> sorted_hits;
 
   void takeCell(const TPoint2D* vertices, std::size_t count, const TPoint2D& middle);
   std::size_t gather(const BoundaryChains& chains, const BoundaryChains::Run& run,
@@ -102,6 +110,7 @@ struct RangeBandFinder::Workspace {
   void followRuns(const BoundaryChains& chains, const BoundaryChains::Run* runs, std::size_t count,
                   const TPoint2D& middle);
   void ranges(float* low, float* high) const;
+  void findGaps(RangeBands& bands);
 };
 
 void RangeBandFinder::Workspace::takeCell(const TPoint2D* vertices, std::size_t count,
@@ -188,7 +197,7 @@ POLYLOC_INLINE bool RangeBandFinder::Workspace::boundEdge(std::size_t i, EdgeBou
 }
 
 /// Over the bins [first, last]: near depths to at least, those of the passing chain to at most what
-/// the edge's bounds say.
+/// the edge's bounds say, which are kept as well.
 POLYLOC_INLINE void RangeBandFinder::Workspace::raise(const EdgeBounds& e, int first, int last) {
   // Within a bin a cosine exceeds those at its ends by this at most.
   const float kBulge = 1.0F / static_cast<float>(std::cos(0.5 * kBandBinWidth + kAngularSlack));
@@ -200,6 +209,7 @@ POLYLOC_INLINE void RangeBandFinder::Workspace::raise(const EdgeBounds& e, int f
     float* __restrict__ nears = near.data() + block;
     float* __restrict__ chain = passing.data() + block;
     const int count = last - block;
+    std::array<float, kBlock> enters, leaves;
     for (int k = 0; k < kBlock; ++k) {
       const float c0 = first_c[k], c1 = last_c[k], s0 = first_s[k], s1 = last_s[k];
       const float t0 = e.nx * c0 + e.ny * s0, t1 = e.nx * c1 + e.ny * s1;
@@ -209,10 +219,16 @@ POLYLOC_INLINE void RangeBandFinder::Workspace::raise(const EdgeBounds& e, int f
       const float low =
           std::max(std::max(std::min(t0, t1) * e.far_n, std::min(c0 * e.far_x, c1 * e.far_x)),
                    std::max(std::min(s0 * e.far_y, s1 * e.far_y), 0.0F));
+      enters[static_cast<std::size_t>(k)] = high * kBulge;
+      leaves[static_cast<std::size_t>(k)] = low;
       const float entered = std::max(nears[k], high * kBulge);
       const float left = std::min(chain[k], low);
       nears[k] = k <= count ? entered : nears[k];
       chain[k] = k <= count ? left : chain[k];
+    }
+    for (int k = 0; k < kBlock && k <= count; ++k) {
+      hits.push_back({(block + k) % kBins, enters[static_cast<std::size_t>(k)],
+                      leaves[static_cast<std::size_t>(k)]});
     }
   }
 }
@@ -281,6 +297,7 @@ void RangeBandFinder::Workspace::followRuns(const BoundaryChains& chains,
                                             const TPoint2D& middle) {
   near.fill(0.0F);
   far.fill(0.0F);
+  hits.clear();
   for (std::size_t r = 0; r < count; ++r) {
     BoundaryChains::Run run = extended(chains, runs[r]);
     while (r + 1 < count) {
@@ -309,6 +326,35 @@ void RangeBandFinder::Workspace::ranges(float* low, float* high) const {
   }
 }
 
+/// Given the walls' ranges and hits.
+void RangeBandFinder::Workspace::findGaps(RangeBands& bands) {
+  first_hit.fill(0);
+  for (const EdgeHit& hit : hits) ++first_hit[static_cast<std::size_t>(hit.bin) + 1];
+  for (std::size_t b = 0; b < kBandBins; ++b) first_hit[b + 1] += first_hit[b];
+  sorted_hits.resize(hits.size());
+  auto next = first_hit;
+  for (const EdgeHit& hit : hits) sorted_hits[next[static_cast<std::size_t>(hit.bin)]++] = hit;
+  for (std::size_t b = 0; b < kBandBins; ++b) {
+    const auto begin = sorted_hits.begin() + static_cast<std::ptrdiff_t>(first_hit[b]);
+    const auto end = sorted_hits.begin() + static_cast<std::ptrdiff_t>(first_hit[b + 1]);
+    std::sort(begin, end, [](const EdgeHit& a, const EdgeHit& c) { return a.near > c.near; });
+    const float farthest = bands.wall_high[b];
+    float reached = bands.wall_low[b], low = 0.0F, high = 0.0F;
+    for (auto hit = begin; hit != end; ++hit) {
+      if (!(hit->near > 0.0F)) break;  // never met in this bin
+      const float from = hit->near >= kGreatest ? 0.0F : 1.0F / hit->near;
+      if (from > farthest) break;
+      if (from - reached > high - low) {
+        low = reached;
+        high = from;
+      }
+      reached = std::max(reached, 1.0F / std::max(hit->far, 1.0F / kUnbounded));
+    }
+    bands.gap_low[b] = low;
+    bands.gap_high[b] = high;
+  }
+}
+
 RangeBandFinder::RangeBandFinder(const VisibleEdgeIndex& index)
     : index_(&index), workspace_(std::make_unique<Workspace>()) {}
 RangeBandFinder::~RangeBandFinder() = default;
@@ -325,6 +371,7 @@ void RangeBandFinder::find(const TPoint2D* cell, std::size_t count, RangeBands& 
   if (number >= 0) seen = index_->cell(number);
   w.followRuns(chains, seen.walls, seen.wall_runs, middle);
   w.ranges(bands.wall_low.data(), bands.wall_high.data());
+  w.findGaps(bands);
   bands.has_open = seen.open_runs > 0;
   if (!bands.has_open) {
     bands.open_low.fill(std::numeric_limits<float>::infinity());

@@ -12,7 +12,7 @@ namespace mrpt_polyloc {
 namespace {
 
 constexpr char kMagic[8] = {'P', 'L', 'C', 'E', 'L', 'L', 'S', '\n'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
 
 /// 64-bit FNV-1a, over words of eight bytes for speed, the last ones padded with zeros.
@@ -88,7 +88,6 @@ void forEachArray(Lists& edges, Data& cells, Action&& action) {
     action(level.boxes);
     action(level.codes);
   }
-  action(cells.first_view);
   action(cells.views);
 }
 

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+/// Vectors of 64 bytes as the compiler's own types: one AVX-512 register, or two of AVX2, or four of
+/// SSE2. For hot loops; their results are taken by reference, as such types have no one form in
+/// calls between functions that are compiled for different machines.
+namespace mrpt_polyloc::lanes {
+
+constexpr std::size_t kBytes = 64;
+using Bytes = std::uint8_t __attribute__((vector_size(kBytes)));
+using Words = std::uint16_t __attribute__((vector_size(kBytes)));
+
+#define POLYLOC_LANES inline __attribute__((always_inline))
+
+template <class V, class T>
+POLYLOC_LANES void load(const T* from, V& to) {
+  std::memcpy(&to, from, sizeof(V));
+}
+template <class V>
+POLYLOC_LANES void lower(V& a, const V& b) {
+  a = a < b ? a : b;
+}
+template <class V>
+POLYLOC_LANES void raise(V& a, const V& b) {
+  a = a > b ? a : b;
+}
+/// a becomes a - b where that is positive, else 0.
+template <class V>
+POLYLOC_LANES void takeExcess(V& a, const V& b) {
+  raise(a, b);
+  a -= b;
+}
+/// Lanes of a where the mask's bits are set, else of b.
+template <class V>
+POLYLOC_LANES void blend(const V& mask, const V& a, V& b) {
+  b ^= mask & (a ^ b);
+}
+/// The words' sum.
+POLYLOC_LANES unsigned sumOf(const Words& words) {
+  std::uint16_t each[kBytes / 2];
+  std::memcpy(each, &words, sizeof(each));
+  unsigned sum = 0;
+  for (const std::uint16_t word : each) sum += word;
+  return sum;
+}
+
+/// Bits set for the first `count` lanes of a vector.
+template <class T, std::size_t count>
+struct FirstLanes {
+  alignas(kBytes) T mask[kBytes / sizeof(T)] = {};
+  constexpr FirstLanes() {
+    for (std::size_t i = 0; i < count; ++i) mask[i] = static_cast<T>(-1);
+  }
+};
+
+}  // namespace mrpt_polyloc::lanes
