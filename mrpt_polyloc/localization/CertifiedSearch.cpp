@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -37,11 +38,15 @@ class Starts {
   /// Takes the leaves added since.
   void evaluate() {
     for (std::size_t i = costs_.size(); i < leaves.size(); ++i) {
-      costs_.push_back(std::numeric_limits<float>::infinity());
-      headings_.push_back(0);
       const CellTree::View view = tree_.middleView(leaves[i].index);
-      for (std::uint32_t k = 0; k < CellTree::kWindow[0]; ++k) {
-        const std::uint32_t heading = (leaves[i].heading + k) % kBandBins;
+      // The window's middle first; the rest of it where that is not far off.
+      const std::uint32_t middle = leaves[i].heading + CellTree::kWindow[0] / 2;
+      costs_.push_back(viewCost(view, query_, middle % kBandBins));
+      headings_.push_back(middle % kBandBins);
+      least_ = std::min(least_, costs_[i]);
+      constexpr double kNotFarOff = 1.2;
+      if (costs_[i] > kNotFarOff * limit()) continue;
+      for (std::uint32_t heading = leaves[i].heading; heading < middle; ++heading) {
         const float cost = viewCost(view, query_, heading);
         if (cost >= costs_[i]) continue;
         costs_[i] = cost;
@@ -53,11 +58,10 @@ class Starts {
 
   /// The best leaf of each place, of those within the starting margin of the best of all.
   std::vector<PoseCandidate> best(std::size_t most) const {
-    const auto limit = static_cast<float>(static_cast<double>(least_) * (1.0 + params_.start_share) +
-                                          params_.start_margin);
+    const double most_cost = limit();
     std::unordered_map<std::int64_t, std::size_t> places;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      if (costs_[i] > limit) continue;
+      if (costs_[i] > most_cost) continue;
       const std::int64_t place = placeOf(pose(i), headings_[i]);
       const auto [found, is_new] = places.try_emplace(place, i);
       if (!is_new && costs_[i] < costs_[found->second]) found->second = i;
@@ -72,6 +76,9 @@ class Starts {
   }
 
  private:
+  double limit() const {
+    return static_cast<double>(least_) * (1.0 + params_.start_share) + params_.start_margin;
+  }
   mrpt::math::TPose2D pose(std::size_t leaf) const {
     const TPoint2D p = tree_.middle(leaves[leaf].index);
     return {p.x, p.y, query_.heading(headings_[leaf])};
@@ -102,14 +109,25 @@ class Budget {
 /// So many are refined to find how good the best is.
 constexpr std::size_t kRefined = 5;
 
-double leastRefinedCost(const std::vector<PoseCandidate>& candidates,
-                        const RefinedCost& refined_cost) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const PoseCandidate& candidate : candidates) {
-    least = std::min(least, refined_cost(candidate.pose_map_beams));
+/// The least cost of poses once refined; those seen before are not refined again.
+class LeastRefined {
+ public:
+  explicit LeastRefined(const RefinedCost& refined_cost) : refined_cost_(refined_cost) {}
+
+  double cost() const { return least_; }
+  void take(const std::vector<PoseCandidate>& candidates) {
+    for (const PoseCandidate& candidate : candidates) {
+      const mrpt::math::TPose2D& pose = candidate.pose_map_beams;
+      if (!seen_.emplace(pose.x, pose.y, pose.phi).second) continue;
+      least_ = std::min(least_, refined_cost_(pose));
+    }
   }
-  return least;
-}
+
+ private:
+  const RefinedCost& refined_cost_;
+  std::set<std::tuple<double, double, double>> seen_;
+  double least_ = std::numeric_limits<double>::infinity();
+};
 
 }  // namespace
 
@@ -136,7 +154,7 @@ CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
   constexpr double kFirstLimit = 0.01;  // [m]
   constexpr std::size_t kDiveWidth = 64;
   Starts starts(tree, query, params);
-  double least = std::numeric_limits<double>::infinity();
+  LeastRefined refined(refined_cost);
   unsigned certified = 0, limit = query.units(kFirstLimit);
   for (;;) {
     result.is_complete = descent.raise(
@@ -144,7 +162,8 @@ CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
     if (!result.is_complete && starts.leaves.empty()) descent.dive(kDiveWidth, starts.leaves);
     starts.evaluate();
     if (!result.is_complete) break;
-    least = std::min(least, leastRefinedCost(starts.best(kRefined), refined_cost));
+    refined.take(starts.best(kRefined));
+    const double least = refined.cost();
     const bool is_found = std::isfinite(least);
     const unsigned target =
         is_found ? query.units(least * (1.0 + params.margin_share) + params.margin) : 2 * limit;
