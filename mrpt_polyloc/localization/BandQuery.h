@@ -62,10 +62,11 @@ struct BandQuery {
   std::vector<Beam> beams;  ///< those that take part
 };
 
-/// Lower bound of the search cost, RobustCost summed over the query's beams [units], over all poses
-/// of a node: positions of its cells, headings from bin `heading` (less than kBandBins) on, as many
-/// as its level's window.
-unsigned bandCost(const CellTree::Bands& bands, const BandQuery& query, std::size_t heading);
+/// Lower bounds of the search cost, RobustCost summed over the query's beams [units], over all poses
+/// of a node at one window of headings after another: positions of its cells, headings from bin
+/// `headings[i]` (less than kBandBins) on, as many as its level's window.
+void boundCosts(const CellTree::Bands& bands, const BandQuery& query, const std::uint32_t* headings,
+                std::size_t count, unsigned* bounds);
 
 /// The search cost [m] at the pose in the middle of a cell whose heading is where bin `heading`
 /// begins; a beam that is not in phase may meet what the bin's end meets as well.

@@ -12,6 +12,10 @@ namespace {
 constexpr std::size_t kTop = CellTree::kLevels - 1;
 constexpr auto kBins = static_cast<std::uint32_t>(kBandBins);
 
+std::size_t bitsOf(unsigned bound) {
+  return bound == 0 ? 0U : 32U - static_cast<std::size_t>(__builtin_clz(bound));
+}
+
 std::uint32_t windowOf(std::size_t level) {
   return static_cast<std::uint32_t>(CellTree::kWindow[level]);
 }
@@ -30,13 +34,12 @@ CellDescent::CellDescent(const CellTree& tree, const BandQuery& query, const Pos
       allowed_[level][h] = allowsHeading(level, h) ? 1 : 0;
     }
   }
+  for (std::uint32_t h = 0; h < kBins; h += windowOf(kTop)) list(kTop, h);
   for (std::uint32_t block = 0; block < tree_->nodes(kTop).size(); ++block) {
-    if (!allowsPosition(kTop, block)) continue;
-    const CellTree::Bands bands = tree_->bands(kTop, block);
-    for (std::uint32_t h = 0; h < kBins; h += windowOf(kTop)) consider(kTop, block, bands, h);
+    if (allowsPosition(kTop, block)) consider(kTop, block);
   }
   // Those of bound 0 wait as well.
-  waiting_[kTop].insert(waiting_[kTop].end(), within_[kTop].begin(), within_[kTop].end());
+  waiting_[kTop][0].swap(within_[kTop]);
 }
 
 /// The prior speaks of the robot; its sensor is at most `sensor_distance_` away from it.
@@ -56,28 +59,36 @@ bool CellDescent::allowsHeading(std::size_t level, std::uint32_t heading) const 
          prior_->compass->tolerance + half * kBandBinWidth + kRounding;
 }
 
-void CellDescent::consider(std::size_t level, std::uint32_t index, const CellTree::Bands& bands,
-                           std::uint32_t heading) {
-  if (allowed_[level][heading] == 0) return;
-  ++evaluated_;
-  const unsigned bound = bandCost(bands, *query_, heading);
-  (bound <= limit_ ? within_ : waiting_)[level].push_back({index, heading, bound});
+void CellDescent::list(std::size_t level, std::uint32_t heading) {
+  if (allowed_[level][heading] != 0) headings_.push_back(heading);
+}
+
+void CellDescent::consider(std::size_t level, std::uint32_t index) {
+  evaluated_ += headings_.size();
+  bounds_.resize(headings_.size());
+  boundCosts(tree_->bands(level, index), *query_, headings_.data(), headings_.size(),
+             bounds_.data());
+  for (std::size_t i = 0; i < headings_.size(); ++i) {
+    std::vector<Node>& to =
+        bounds_[i] <= limit_ ? within_[level] : waiting_[level][bitsOf(bounds_[i])];
+    to.push_back({index, headings_[i], bounds_[i]});
+  }
 }
 
 void CellDescent::expand(std::size_t level, const std::vector<Node>& nodes, std::size_t first,
                          std::size_t last) {
   const std::uint32_t step = windowOf(level - 1);
+  headings_.clear();
+  for (std::size_t k = first; k < last; ++k) {
+    const std::uint32_t end = nodes[k].heading + windowOf(level);
+    for (std::uint32_t heading = nodes[k].heading; heading < end; heading += step) {
+      list(level - 1, heading);
+    }
+  }
   const CellTree::Node& node = tree_->nodes(level)[nodes[first].index];
   for (std::uint32_t child = node.first_child; child < node.first_child + node.child_count;
        ++child) {
-    if (!allowsPosition(level - 1, child)) continue;
-    const CellTree::Bands bands = tree_->bands(level - 1, child);
-    for (std::size_t k = first; k < last; ++k) {
-      const std::uint32_t end = nodes[k].heading + windowOf(level);
-      for (std::uint32_t heading = nodes[k].heading; heading < end; heading += step) {
-        consider(level - 1, child, bands, heading);
-      }
-    }
+    if (allowsPosition(level - 1, child)) consider(level - 1, child);
   }
 }
 
@@ -85,11 +96,14 @@ bool CellDescent::raise(unsigned limit, const std::function<bool()>& is_spent,
                         std::vector<Node>& leaves) {
   limit_ = limit;
   for (std::size_t level = 0; level <= kTop; ++level) {
-    std::vector<Node>& waiting = waiting_[level];
-    const auto above = std::stable_partition(
-        waiting.begin(), waiting.end(), [limit](const Node& node) { return node.bound > limit; });
-    within_[level].assign(above, waiting.end());
-    waiting.erase(above, waiting.end());
+    within_[level].clear();
+    for (std::size_t bits = 0; bits <= bitsOf(limit); ++bits) {
+      std::vector<Node>& waiting = waiting_[level][bits];
+      const auto above = std::stable_partition(
+          waiting.begin(), waiting.end(), [limit](const Node& node) { return node.bound > limit; });
+      within_[level].insert(within_[level].end(), above, waiting.end());
+      waiting.erase(above, waiting.end());
+    }
   }
   bool is_complete = !is_spent();
   for (std::size_t level = kTop; level > 0; --level) {
@@ -109,7 +123,9 @@ void CellDescent::dive(std::size_t width, std::vector<Node>& leaves) {
   limit_ = std::numeric_limits<unsigned>::max();
   for (std::size_t level = kTop; level > 0; --level) {
     std::vector<Node> nodes = within_[level];
-    nodes.insert(nodes.end(), waiting_[level].begin(), waiting_[level].end());
+    for (const std::vector<Node>& waiting : waiting_[level]) {
+      nodes.insert(nodes.end(), waiting.begin(), waiting.end());
+    }
     const std::size_t kept = std::min(width, nodes.size());
     std::partial_sort(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(kept), nodes.end(),
                       [](const Node& a, const Node& b) {
@@ -122,8 +138,10 @@ void CellDescent::dive(std::size_t width, std::vector<Node>& leaves) {
 }
 
 bool CellDescent::isDone() const {
-  return std::all_of(waiting_.begin(), waiting_.end(),
-                     [](const std::vector<Node>& nodes) { return nodes.empty(); });
+  return std::all_of(waiting_.begin(), waiting_.end(), [](const auto& buckets) {
+    return std::all_of(buckets.begin(), buckets.end(),
+                       [](const std::vector<Node>& nodes) { return nodes.empty(); });
+  });
 }
 
 }  // namespace mrpt_polyloc

@@ -45,11 +45,14 @@ class CellDescent {
   std::size_t evaluated() const { return evaluated_; }  ///< nodes bounded so far
 
  private:
+  static constexpr std::size_t kBuckets = 33;  ///< bits of a bound
+
   /// Bounds the children of nodes [first, last), which are of one index.
   void expand(std::size_t level, const std::vector<Node>& nodes, std::size_t first,
               std::size_t last);
-  void consider(std::size_t level, std::uint32_t index, const CellTree::Bands& bands,
-                std::uint32_t heading);
+  /// Bounds a node at the windows that `headings_` lists.
+  void consider(std::size_t level, std::uint32_t index);
+  void list(std::size_t level, std::uint32_t heading);
   bool allowsPosition(std::size_t level, std::uint32_t index) const;
   bool allowsHeading(std::size_t level, std::uint32_t heading) const;
 
@@ -57,8 +60,12 @@ class CellDescent {
   const BandQuery* query_;
   const PosePrior* prior_;
   double sensor_distance_;
+  std::vector<std::uint32_t> headings_;  ///< allowed windows that are to be bounded
+  std::vector<unsigned> bounds_;         ///< of these
   std::array<std::vector<char>, CellTree::kLevels> allowed_;  ///< headings, by level
-  std::array<std::vector<Node>, CellTree::kLevels> waiting_;  ///< above the limit, by level
+  /// Above the limit, by level and by the bits of the bound: as the limit rises, whole vectors come
+  /// within it.
+  std::array<std::array<std::vector<Node>, kBuckets>, CellTree::kLevels> waiting_;
   std::array<std::vector<Node>, CellTree::kLevels> within_;   ///< to be expanded
   unsigned limit_ = 0;
   std::size_t evaluated_ = 0;

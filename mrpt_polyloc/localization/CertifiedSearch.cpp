@@ -152,6 +152,7 @@ CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
   // The first limits are below what noise alone costs: few leaves are within them, the right one
   // mostly among them, as bounds are well below costs.
   constexpr double kFirstLimit = 0.01;  // [m]
+  constexpr unsigned kGrowth = 4;
   constexpr std::size_t kDiveWidth = 64;
   Starts starts(tree, query, params);
   LeastRefined refined(refined_cost);
@@ -166,13 +167,13 @@ CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
     const double least = refined.cost();
     const bool is_found = std::isfinite(least);
     const unsigned target =
-        is_found ? query.units(least * (1.0 + params.margin_share) + params.margin) : 2 * limit;
+        is_found ? query.units(least * (1.0 + params.margin_share) + params.margin) : kGrowth * limit;
     if (target <= limit || descent.isDone()) {
       certified = target;
       break;
     }
     certified = limit;
-    limit = std::min(target, 2 * limit);
+    limit = std::min(target, kGrowth * limit);
   }
 
   result.candidates = starts.best(params.max_candidates);

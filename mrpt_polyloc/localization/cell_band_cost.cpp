@@ -20,10 +20,7 @@ template <>
 struct Sums<false> {
   Bytes bytes{};
   POLYLOC_LANES void add(const Bytes& costs) { bytes += costs; }
-  POLYLOC_LANES void words(Words& sums) const {
-    const Words pairs = reinterpret_cast<const Words&>(bytes);
-    sums = (pairs & 0xFF) + (pairs >> 8);
-  }
+  POLYLOC_LANES unsigned total() const { return lanes::sumOf(bytes); }
 };
 template <>
 struct Sums<true> {
@@ -32,88 +29,114 @@ struct Sums<true> {
     const Words more = reinterpret_cast<const Words&>(costs);
     pairs += (more & 0xFF) + (more >> 8);
   }
-  POLYLOC_LANES void words(Words& sums) const { sums = pairs; }
+  POLYLOC_LANES unsigned total() const { return lanes::sumOf(pairs); }
 };
 
+/// The bands of some bins.
+struct Bins {
+  Bytes near_low, wall_high, gap_low, gap_high, may_be_open;
+};
+
+template <bool is_in_phase>
+POLYLOC_LANES void loadBins(const CellTree::Bands& bands, std::size_t first, Bins& bins) {
+  load(bands.near_low + first, bins.near_low);
+  load(bands.wall_high + first, bins.wall_high);
+  load(bands.gap_low + first, bins.gap_low);
+  load(bands.gap_high + first, bins.gap_high);
+  bins.may_be_open = Bytes{} - (bins.gap_low & 1);
+  if (is_in_phase) return;
+  Bytes next;  // a beam may meet the next bin, too
+  load(bands.near_low + first + 1, next);
+  lower(bins.near_low, next);
+  load(bands.wall_high + first + 1, next);
+  raise(bins.wall_high, next);
+  load(bands.gap_low + first + 1, next);
+  bins.may_be_open |= Bytes{} - (next & 1);
+  raise(bins.gap_low, next);
+  load(bands.gap_high + first + 1, next);
+  lower(bins.gap_high, next);
+}
+
 /// The cases of BinBand: at most one of them costs a beam anything.
-template <bool has_open, bool is_in_phase, bool has_no_returns, bool is_wide>
-POLYLOC_LANES unsigned sumCosts(const CellTree::Bands& bands,
-                                                        const BandQuery& query,
-                                                        std::size_t heading) {
-  const BandQuery::Scaled& scan = query.scaled[bands.scale];
-  Sums<is_wide> sums;
-  for (std::size_t first = 0; first < kBandBins; first += kLanes) {
-    const std::size_t rotated = first + kBandBins - heading;
-    if (!query.informs_from[rotated]) continue;
-    Bytes near_low, wall_high, gap_low, gap_high, short_range, long_range;
-    load(bands.near_low + first, near_low);
-    load(bands.wall_high + first, wall_high);
-    load(bands.gap_low + first, gap_low);
-    load(bands.gap_high + first, gap_high);
-    load(scan.short_range.data() + rotated, short_range);
-    load(scan.long_range.data() + rotated, long_range);
-    Bytes may_be_open = gap_low & 1;
-    if (!is_in_phase) {  // a beam may meet the next bin, too
-      Bytes next;
-      load(bands.near_low + first + 1, next);
-      lower(near_low, next);
-      load(bands.wall_high + first + 1, next);
-      raise(wall_high, next);
-      load(bands.gap_low + first + 1, next);
-      may_be_open |= next & 1;
-      raise(gap_low, next);
-      load(bands.gap_high + first + 1, next);
-      lower(gap_high, next);
-    }
-    Bytes beyond = long_range, cap_long = Bytes{} + scan.cap_long, cap_gap = Bytes{} + scan.cap_gap;
-    takeExcess(beyond, wall_high);
-    if (has_no_returns) {
-      Bytes no_return;
-      load(query.no_return.data() + rotated, no_return);
-      blend(no_return, Bytes{} + scan.cap_none, cap_long);
-      // Past an open edge, nothing need return.
-      if (has_open) blend(no_return & (Bytes{} - may_be_open), Bytes{}, cap_long);
-    }
-    lower(beyond, cap_long);
-    takeExcess(near_low, short_range);
-    lower(near_low, Bytes{} + scan.cap_short);
-    if (has_open) blend(Bytes{} - may_be_open, Bytes{} + scan.cap_open_gap, cap_gap);
-    takeExcess(long_range, gap_low);
-    takeExcess(gap_high, short_range);
-    lower(gap_high, long_range);
-    lower(gap_high, cap_gap);
-    Bytes costs = near_low + beyond + gap_high;
-    if (first + kLanes > kBandBins) {
-      Bytes last;
-      load(kLast.mask, last);
-      costs &= last;
-    }
-    sums.add(costs);
+template <bool has_open, bool has_no_returns>
+POLYLOC_LANES void costsOf(const Bins& bins, const BandQuery& query,
+                           const BandQuery::Scaled& scan, std::size_t rotated, Bytes& costs) {
+  Bytes short_range, long_range;
+  load(scan.short_range.data() + rotated, short_range);
+  load(scan.long_range.data() + rotated, long_range);
+  Bytes beyond = long_range, cap_long = Bytes{} + scan.cap_long;
+  takeExcess(beyond, bins.wall_high);
+  if (has_no_returns) {
+    Bytes no_return;
+    load(query.no_return.data() + rotated, no_return);
+    blend(no_return, Bytes{} + scan.cap_none, cap_long);
+    // Past an open edge, nothing need return.
+    if (has_open) cap_long &= ~(no_return & bins.may_be_open);
   }
-  Words words;
-  sums.words(words);
-  return lanes::sumOf(words) << bands.scale;
+  lower(beyond, cap_long);
+  Bytes falls_short = bins.near_low;
+  takeExcess(falls_short, short_range);
+  lower(falls_short, Bytes{} + scan.cap_short);
+  Bytes in_gap = bins.gap_high, cap_gap = Bytes{} + scan.cap_gap;
+  if (has_open) blend(bins.may_be_open, Bytes{} + scan.cap_open_gap, cap_gap);
+  takeExcess(long_range, bins.gap_low);
+  takeExcess(in_gap, short_range);
+  lower(in_gap, long_range);
+  lower(in_gap, cap_gap);
+  costs = falls_short + beyond + in_gap;
+}
+
+template <bool has_open, bool is_in_phase, bool has_no_returns, bool is_wide>
+POLYLOC_LANES void boundAll(const CellTree::Bands& bands, const BandQuery& query,
+                            const std::uint32_t* headings, std::size_t count, unsigned* bounds) {
+  const BandQuery::Scaled& scan = query.scaled[bands.scale];
+  Bins bins[BandQuery::kVectors];
+  for (std::size_t v = 0; v < BandQuery::kVectors; ++v) {
+    loadBins<is_in_phase>(bands, v * kLanes, bins[v]);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    Sums<is_wide> sums;
+    for (std::size_t v = 0; v < BandQuery::kVectors; ++v) {
+      const std::size_t rotated = v * kLanes + kBandBins - headings[i];
+      if (!query.informs_from[rotated]) continue;
+      Bytes costs;
+      costsOf<has_open, has_no_returns>(bins[v], query, scan, rotated, costs);
+      if (v + 1 == BandQuery::kVectors) {
+        Bytes last;
+        load(kLast.mask, last);
+        costs &= last;
+      }
+      sums.add(costs);
+    }
+    bounds[i] = sums.total() << bands.scale;
+  }
 }
 
 template <bool has_open, bool is_in_phase>
-POLYLOC_LANES unsigned chooseByReturns(const CellTree::Bands& bands,
-                                                               const BandQuery& query,
-                                                               std::size_t heading) {
-  if (query.has_wide_caps) return sumCosts<has_open, is_in_phase, true, true>(bands, query, heading);
-  return query.has_no_returns ? sumCosts<has_open, is_in_phase, true, false>(bands, query, heading)
-                              : sumCosts<has_open, is_in_phase, false, false>(bands, query, heading);
+POLYLOC_LANES void chooseByBeams(const CellTree::Bands& bands, const BandQuery& query,
+                                 const std::uint32_t* headings, std::size_t count,
+                                 unsigned* bounds) {
+  if (query.has_wide_caps) {
+    boundAll<has_open, is_in_phase, true, true>(bands, query, headings, count, bounds);
+  } else if (query.has_no_returns) {
+    boundAll<has_open, is_in_phase, true, false>(bands, query, headings, count, bounds);
+  } else {
+    boundAll<has_open, is_in_phase, false, false>(bands, query, headings, count, bounds);
+  }
 }
 
 }  // namespace
 
 POLYLOC_HOT_LOOP
-unsigned bandCost(const CellTree::Bands& bands, const BandQuery& query, std::size_t heading) {
+void boundCosts(const CellTree::Bands& bands, const BandQuery& query, const std::uint32_t* headings,
+                std::size_t count, unsigned* bounds) {
   if (query.is_in_phase) {
-    return bands.has_open ? chooseByReturns<true, true>(bands, query, heading)
-                          : chooseByReturns<false, true>(bands, query, heading);
+    bands.has_open ? chooseByBeams<true, true>(bands, query, headings, count, bounds)
+                   : chooseByBeams<false, true>(bands, query, headings, count, bounds);
+  } else {
+    bands.has_open ? chooseByBeams<true, false>(bands, query, headings, count, bounds)
+                   : chooseByBeams<false, false>(bands, query, headings, count, bounds);
   }
-  return bands.has_open ? chooseByReturns<true, false>(bands, query, heading)
-                        : chooseByReturns<false, false>(bands, query, heading);
 }
 
 }  // namespace mrpt_polyloc
