@@ -41,6 +41,7 @@ struct NormalEquations {
 void PoseRefinerParams::check() const {
   requireInRange("max_iterations", max_iterations, 0.0, 1000.0);
   requirePositive("step_tolerance", step_tolerance);
+  requirePositive("turn_tolerance", turn_tolerance);
   requirePositive("residual_scale", residual_scale);
   requirePositive("gate", gate);
   requirePositive("sigma", sigma);
@@ -61,27 +62,30 @@ PoseRefiner::PoseRefiner(const RangePredictor& predictor, const RangeScan& scan,
 RefinedPose PoseRefiner::refine(const mrpt::math::TPose2D& start) const {
   mrpt::math::TPose2D pose = start;
   PredictedHits predicted;
+  const double inverse_scale = 1.0 / params_.residual_scale;
   const auto linearize = [&] {
     predictor_->predict(pose, pattern_, predicted);
     NormalEquations equations;
     for (std::size_t i = 0; i < ranges_.size(); ++i) {
       const double along = static_cast<double>(predicted.along[i]);
       const double across = static_cast<double>(predicted.across[i]);
-      const double inverse_distance = std::hypot(along, across);
+      const double inverse_distance = std::sqrt(along * along + across * across);
       // No wall there, or the pose stands on it.
       if (!(inverse_distance > 0.0 && std::isfinite(inverse_distance))) continue;
       // The hit's distance beyond the line n.x = h, n the unit normal away from the robot.
-      const double nx = along / inverse_distance, ny = across / inverse_distance;
+      const double distance = 1.0 / inverse_distance;
+      const double nx = along * distance, ny = across * distance;
       const double range = static_cast<double>(ranges_[i]);
       const double qx = range * cosines_[i], qy = range * sines_[i];
-      const double residual = nx * qx + ny * qy - 1.0 / inverse_distance;
+      const double residual = nx * qx + ny * qy - distance;
       if (std::abs(residual) > params_.gate) continue;
       // Moving the frame by (dx, dy, dphi) moves the hit by (dx - dphi qy, dy + dphi qx).
       const Eigen::Vector3d gradient(nx, ny, ny * qx - nx * qy);
-      const double scaled = residual / params_.residual_scale;
+      const double scaled = residual * inverse_scale;
       const double weight = 1.0 / (1.0 + scaled * scaled);
-      equations.matrix += weight * gradient * gradient.transpose();
-      equations.right -= weight * residual * gradient;
+      const Eigen::Vector3d weighted = weight * gradient;
+      equations.matrix.noalias() += weighted * gradient.transpose();
+      equations.right -= residual * weighted;
       ++equations.beams;
     }
     return equations;
@@ -103,7 +107,9 @@ RefinedPose PoseRefiner::refine(const mrpt::math::TPose2D& start) const {
     pose.y += s * step[0] + c * step[1];
     pose.phi += step[2];
     equations = linearize();
-    if (step.head<2>().norm() < params_.step_tolerance && std::abs(step[2]) < 1e-4) break;
+    if (step.head<2>().norm() < params_.step_tolerance && std::abs(step[2]) < params_.turn_tolerance) {
+      break;
+    }
   }
 
   // From the beam frame's axes to the map's.

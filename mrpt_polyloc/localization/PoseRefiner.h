@@ -14,7 +14,8 @@ namespace mrpt_polyloc {
 
 struct PoseRefinerParams {
   int max_iterations = 12;
-  double step_tolerance = 1e-4;  ///< ends when a step is shorter than this [m], and 1e-4 rad
+  double step_tolerance = 1e-4;  ///< ends when a step is shorter than this [m] ...
+  double turn_tolerance = 1e-4;  ///< ... and turns by less than this [rad]
   /// Residuals count fully up to about this distance and hardly beyond its double (Cauchy's
   /// weights) [m]: a few cells of a grid map, less than the depth of furniture.
   double residual_scale = 0.1;

@@ -31,9 +31,12 @@ bool isAllowed(const PosePrior& prior, const mrpt::math::TPose2D& pose_map_robot
 std::vector<RankedPose> refine(const std::vector<mrpt::math::TPose2D>& candidates,
                                const RangeScan& scan, const PosePrior& prior, const ScanCost& cost,
                                const RangePredictor& predictor, const RankingParams& params) {
-  // Enough beams to come near the optimum; all of them only where it may matter.
+  // Enough beams and steps to come near the optimum; all of them only where it may matter.
   constexpr std::size_t kCoarseBeams = 90;
-  const PoseRefiner coarse(predictor, scan, params.refinement, kCoarseBeams);
+  PoseRefinerParams near_enough = params.refinement;
+  near_enough.step_tolerance = std::max(near_enough.step_tolerance, 1e-2);  // [m]
+  near_enough.turn_tolerance = std::max(near_enough.turn_tolerance, 3e-3);  // [rad]
+  const PoseRefiner coarse(predictor, scan, near_enough, kCoarseBeams);
   const PoseRefiner fine(predictor, scan, params.refinement);
   std::vector<RankedPose> poses;
   poses.reserve(candidates.size());
@@ -48,7 +51,12 @@ std::vector<RankedPose> refine(const std::vector<mrpt::math::TPose2D>& candidate
   constexpr std::size_t kLeastRivals = 20;
   const std::size_t kept = std::max(params.max_hypotheses, kLeastRivals);
   if (poses.size() > 2 * kept) poses.resize(2 * kept);
+  // Those that cost much more than the best will not become it.
+  constexpr double kWorthShare = 1.25, kWorthMargin = 0.03;  // measured, [m]
+  const double most_cost =
+      poses.empty() ? 0.0 : kWorthShare * poses.front().cost + kWorthMargin;
   for (RankedPose& pose : poses) {
+    if (pose.cost > most_cost) break;
     const RefinedPose refined = fine.refine(pose.refined.pose_map_beams);
     const auto pose_map_robot = scan.robotFromBeamFrame(refined.pose_map_beams);
     if (!isAllowed(prior, pose_map_robot, params.hypotheses)) continue;

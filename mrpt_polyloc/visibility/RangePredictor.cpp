@@ -80,11 +80,13 @@ RangePredictor::RangePredictor(const Triangulation& triangulation, VisibleEdgeIn
     : box_(triangulation.box()), index_(triangulation, std::move(lists)) {}
 
 /// Raises `wall`, inverse ranges or hits, to what is seen from a pose (nothing outside the
-/// triangulated box), and writes the ranges to the first open edges.
+/// triangulated box), and writes those to the first open edges to `open` unless that is null; it
+/// stays empty where there are none.
 template <class Depths>
 void RangePredictor::look(const mrpt::math::TPose2D& pose, std::int64_t cell,
-                          const BeamPattern& beams, Workspace& w, Depths& wall) const {
-  w.open.assign(0, 0.0F);
+                          const BeamPattern& beams, Workspace& w, Depths& wall,
+                          FloatBlocks* open) const {
+  if (open != nullptr) open->assign(0, 0.0F);
   const bool is_known = pose.x >= box_.min.x && pose.x <= box_.max.x && pose.y >= box_.min.y &&
                         pose.y <= box_.max.y && std::isfinite(pose.phi);  // false for NaN
   if (!is_known) return;
@@ -94,16 +96,16 @@ void RangePredictor::look(const mrpt::math::TPose2D& pose, std::int64_t cell,
                               chains.open().size()};
   if (cell >= 0) seen = index_.cell(cell);
   raiseDepths(chains, seen.walls, seen.wall_runs, frame, beams, w.depths, wall);
-  if (seen.open_runs == 0) return;
-  w.open.assign(beams.size(), 0.0F);
-  raiseDepths(chains, seen.open, seen.open_runs, frame, beams, w.depths, w.open);
+  if (open == nullptr || seen.open_runs == 0) return;
+  open->assign(beams.size(), 0.0F);
+  raiseDepths(chains, seen.open, seen.open_runs, frame, beams, w.depths, *open);
 }
 
 void RangePredictor::predict(const mrpt::math::TPose2D& pose, std::int64_t cell,
                              const BeamPattern& beams, Workspace& w, float* wall,
                              float* open) const {
   w.wall.assign(beams.size(), 0.0F);
-  look(pose, cell, beams, w, w.wall);
+  look(pose, cell, beams, w, w.wall, &w.open);
   takeWallRanges(beams, w.wall.data(), wall);
   takeOpenRanges(beams, w.wall.data(), w.open.data(), open);
 }
@@ -111,12 +113,11 @@ void RangePredictor::predict(const mrpt::math::TPose2D& pose, std::int64_t cell,
 void RangePredictor::predict(const mrpt::math::TPose2D& pose_map_beams, const BeamPattern& beams,
                              PredictedHits& out) const {
   const std::size_t n = beams.size();
-  for (auto* column : {&out.wall, &out.open, &out.along, &out.across}) column->resize(n);
+  for (auto* column : {&out.along, &out.across}) column->resize(n);
   Workspace& w = workspace();
   for (auto* column : {&w.hits.inverse, &w.hits.along, &w.hits.across}) column->assign(n, 0.0F);
-  look(pose_map_beams, index_.cellNumber({pose_map_beams.x, pose_map_beams.y}), beams, w, w.hits);
-  takeWallRanges(beams, w.hits.inverse.data(), out.wall.data());
-  takeOpenRanges(beams, w.hits.inverse.data(), w.open.data(), out.open.data());
+  look(pose_map_beams, index_.cellNumber({pose_map_beams.x, pose_map_beams.y}), beams, w, w.hits,
+       nullptr);
   for (std::size_t i = 0; i < n; ++i) {
     out.along[beams.order()[i]] = w.hits.along[i];
     out.across[beams.order()[i]] = w.hits.across[i];

@@ -20,11 +20,10 @@ struct PredictedRanges {
   std::vector<float> open;
 };
 
-/// PredictedRanges of one pose with the line each beam hits, in the beam frame: with
-/// 1 / wall = along * cos(bearing) + across * sin(bearing), (along, across) is the line's normal
-/// divided by its distance [1/m]; both 0 where no wall is hit.
+/// The line of the first wall that each beam of one pose hits, in the beam frame: its normal divided
+/// by its distance [1/m]. The range to the wall is 1 / (along * cos(bearing) + across *
+/// sin(bearing)); both are 0 where no wall is hit.
 struct PredictedHits {
-  std::vector<float> wall, open;
   std::vector<float> along, across;
 };
 
@@ -58,7 +57,7 @@ class RangePredictor {
   void predict(const std::vector<mrpt::math::TPose2D>& poses, const BeamPattern& beams,
                PredictedRanges& out) const;
 
-  /// The ranges from one pose, and the lines that are hit: what refinement needs for derivatives.
+  /// The lines that are hit from one pose: what refinement needs, ranges with derivatives.
   void predict(const mrpt::math::TPose2D& pose_map_beams, const BeamPattern& beams,
                PredictedHits& out) const;
 
@@ -69,7 +68,7 @@ class RangePredictor {
   static Workspace& workspace();  ///< of the calling thread, kept between calls
   template <class Depths>
   void look(const mrpt::math::TPose2D& pose, std::int64_t cell, const BeamPattern& beams,
-            Workspace& workspace, Depths& wall) const;
+            Workspace& workspace, Depths& wall, FloatBlocks* open) const;
   void predict(const mrpt::math::TPose2D& pose, std::int64_t cell, const BeamPattern& beams,
                Workspace& workspace, float* wall, float* open) const;
 
