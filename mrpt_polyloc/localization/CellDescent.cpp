@@ -23,11 +23,17 @@ std::uint32_t windowOf(std::size_t level) {
 }  // namespace
 
 CellDescent::CellDescent(const CellTree& tree, const BandQuery& query, const PosePrior& prior,
-                         const mrpt::math::TPoint2D& sensor)
+                         const mrpt::math::TPoint2D& sensor, Workspace& workspace)
     : tree_(&tree),
       query_(&query),
       prior_(&prior),
-      sensor_distance_(std::hypot(sensor.x, sensor.y)) {
+      sensor_distance_(std::hypot(sensor.x, sensor.y)),
+      workspace_(&workspace) {
+  for (auto& buckets : workspace_->waiting) {
+    for (std::vector<Node>& nodes : buckets) nodes.clear();
+  }
+  for (std::vector<Node>& nodes : workspace_->within) nodes.clear();
+  workspace_->headings.clear();
   for (std::size_t level = 0; level <= kTop; ++level) {
     allowed_[level].resize(kBandBins);
     for (std::uint32_t h = 0; h < kBins; ++h) {
@@ -39,7 +45,7 @@ CellDescent::CellDescent(const CellTree& tree, const BandQuery& query, const Pos
     if (allowsPosition(kTop, block)) consider(kTop, block);
   }
   // Those of bound 0 wait as well.
-  waiting_[kTop][0].swap(within_[kTop]);
+  workspace_->waiting[kTop][0].swap(workspace_->within[kTop]);
 }
 
 /// The prior speaks of the robot; its sensor is at most `sensor_distance_` away from it.
@@ -60,25 +66,26 @@ bool CellDescent::allowsHeading(std::size_t level, std::uint32_t heading) const 
 }
 
 void CellDescent::list(std::size_t level, std::uint32_t heading) {
-  if (allowed_[level][heading] != 0) headings_.push_back(heading);
+  if (allowed_[level][heading] != 0) workspace_->headings.push_back(heading);
 }
 
 void CellDescent::consider(std::size_t level, std::uint32_t index) {
-  evaluated_ += headings_.size();
-  bounds_.resize(headings_.size());
-  boundCosts(tree_->bands(level, index), *query_, headings_.data(), headings_.size(),
-             bounds_.data());
-  for (std::size_t i = 0; i < headings_.size(); ++i) {
-    std::vector<Node>& to =
-        bounds_[i] <= limit_ ? within_[level] : waiting_[level][bitsOf(bounds_[i])];
-    to.push_back({index, headings_[i], bounds_[i]});
+  const std::vector<std::uint32_t>& headings = workspace_->headings;
+  std::vector<unsigned>& bounds = workspace_->bounds;
+  evaluated_ += headings.size();
+  bounds.resize(headings.size());
+  boundCosts(tree_->bands(level, index), *query_, headings.data(), headings.size(), bounds.data());
+  for (std::size_t i = 0; i < headings.size(); ++i) {
+    std::vector<Node>& to = bounds[i] <= limit_ ? workspace_->within[level]
+                                                : workspace_->waiting[level][bitsOf(bounds[i])];
+    to.push_back({index, headings[i], bounds[i]});
   }
 }
 
 void CellDescent::expand(std::size_t level, const std::vector<Node>& nodes, std::size_t first,
                          std::size_t last) {
   const std::uint32_t step = windowOf(level - 1);
-  headings_.clear();
+  workspace_->headings.clear();
   for (std::size_t k = first; k < last; ++k) {
     const std::uint32_t end = nodes[k].heading + windowOf(level);
     for (std::uint32_t heading = nodes[k].heading; heading < end; heading += step) {
@@ -96,18 +103,18 @@ bool CellDescent::raise(unsigned limit, const std::function<bool()>& is_spent,
                         std::vector<Node>& leaves) {
   limit_ = limit;
   for (std::size_t level = 0; level <= kTop; ++level) {
-    within_[level].clear();
+    workspace_->within[level].clear();
     for (std::size_t bits = 0; bits <= bitsOf(limit); ++bits) {
-      std::vector<Node>& waiting = waiting_[level][bits];
+      std::vector<Node>& waiting = workspace_->waiting[level][bits];
       const auto above = std::stable_partition(
           waiting.begin(), waiting.end(), [limit](const Node& node) { return node.bound > limit; });
-      within_[level].insert(within_[level].end(), above, waiting.end());
+      workspace_->within[level].insert(workspace_->within[level].end(), above, waiting.end());
       waiting.erase(above, waiting.end());
     }
   }
   bool is_complete = !is_spent();
   for (std::size_t level = kTop; level > 0; --level) {
-    const std::vector<Node>& nodes = within_[level];
+    const std::vector<Node>& nodes = workspace_->within[level];
     // Nodes of one index mostly stand together: each child's bands are then read once.
     for (std::size_t first = 0, last = 0; is_complete && first < nodes.size(); first = last) {
       while (last < nodes.size() && nodes[last].index == nodes[first].index) ++last;
@@ -115,15 +122,15 @@ bool CellDescent::raise(unsigned limit, const std::function<bool()>& is_spent,
       is_complete = !is_spent();
     }
   }
-  leaves.insert(leaves.end(), within_[0].begin(), within_[0].end());
+  leaves.insert(leaves.end(), workspace_->within[0].begin(), workspace_->within[0].end());
   return is_complete;
 }
 
 void CellDescent::dive(std::size_t width, std::vector<Node>& leaves) {
   limit_ = std::numeric_limits<unsigned>::max();
   for (std::size_t level = kTop; level > 0; --level) {
-    std::vector<Node> nodes = within_[level];
-    for (const std::vector<Node>& waiting : waiting_[level]) {
+    std::vector<Node> nodes = workspace_->within[level];
+    for (const std::vector<Node>& waiting : workspace_->waiting[level]) {
       nodes.insert(nodes.end(), waiting.begin(), waiting.end());
     }
     const std::size_t kept = std::min(width, nodes.size());
@@ -134,11 +141,11 @@ void CellDescent::dive(std::size_t width, std::vector<Node>& leaves) {
                       });
     for (std::size_t i = 0; i < kept; ++i) expand(level, nodes, i, i + 1);
   }
-  leaves.insert(leaves.end(), within_[0].begin(), within_[0].end());
+  leaves.insert(leaves.end(), workspace_->within[0].begin(), workspace_->within[0].end());
 }
 
 bool CellDescent::isDone() const {
-  return std::all_of(waiting_.begin(), waiting_.end(), [](const auto& buckets) {
+  return std::all_of(workspace_->waiting.begin(), workspace_->waiting.end(), [](const auto& buckets) {
     return std::all_of(buckets.begin(), buckets.end(),
                        [](const std::vector<Node>& nodes) { return nodes.empty(); });
   });

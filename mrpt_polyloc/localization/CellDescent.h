@@ -25,10 +25,22 @@ class CellDescent {
     unsigned bound;  ///< of the search cost [units of the query]
   };
 
+  static constexpr std::size_t kBuckets = 33;  ///< bits of a bound
+
+  /// Memory that is kept from one descent to the next: growing it anew takes a tenth of the time.
+  struct Workspace {
+    /// Above the limit, by level and by the bits of the bound: as the limit rises, whole vectors
+    /// come within it.
+    std::array<std::array<std::vector<Node>, kBuckets>, CellTree::kLevels> waiting;
+    std::array<std::vector<Node>, CellTree::kLevels> within;  ///< to be expanded, by level
+    std::vector<std::uint32_t> headings;  ///< allowed windows that are to be bounded
+    std::vector<unsigned> bounds;         ///< of these
+  };
+
   /// Bounds all nodes of the top level. Keeps references. \param sensor the beams' origin in the
   /// robot frame
   CellDescent(const CellTree& tree, const BandQuery& query, const PosePrior& prior,
-              const mrpt::math::TPoint2D& sensor);
+              const mrpt::math::TPoint2D& sensor, Workspace& workspace);
 
   /// Nothing waits any more: every pose that the prior allows is in a leaf, or there is none.
   bool isDone() const;
@@ -45,12 +57,10 @@ class CellDescent {
   std::size_t evaluated() const { return evaluated_; }  ///< nodes bounded so far
 
  private:
-  static constexpr std::size_t kBuckets = 33;  ///< bits of a bound
-
   /// Bounds the children of nodes [first, last), which are of one index.
   void expand(std::size_t level, const std::vector<Node>& nodes, std::size_t first,
               std::size_t last);
-  /// Bounds a node at the windows that `headings_` lists.
+  /// Bounds a node at the windows listed.
   void consider(std::size_t level, std::uint32_t index);
   void list(std::size_t level, std::uint32_t heading);
   bool allowsPosition(std::size_t level, std::uint32_t index) const;
@@ -60,13 +70,8 @@ class CellDescent {
   const BandQuery* query_;
   const PosePrior* prior_;
   double sensor_distance_;
-  std::vector<std::uint32_t> headings_;  ///< allowed windows that are to be bounded
-  std::vector<unsigned> bounds_;         ///< of these
   std::array<std::vector<char>, CellTree::kLevels> allowed_;  ///< headings, by level
-  /// Above the limit, by level and by the bits of the bound: as the limit rises, whole vectors come
-  /// within it.
-  std::array<std::array<std::vector<Node>, kBuckets>, CellTree::kLevels> waiting_;
-  std::array<std::vector<Node>, CellTree::kLevels> within_;   ///< to be expanded
+  Workspace* workspace_;
   unsigned limit_ = 0;
   std::size_t evaluated_ = 0;
 };

@@ -147,7 +147,8 @@ CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
   CertifiedSearchResult result;
   if (query.beams.empty()) return result;
   const Budget budget(params);
-  CellDescent descent(tree, query, prior, sensor);
+  thread_local CellDescent::Workspace workspace;
+  CellDescent descent(tree, query, prior, sensor, workspace);
 
   // The first limits are below what noise alone costs: few leaves are within them, the right one
   // mostly among them, as bounds are well below costs.

@@ -23,7 +23,7 @@ struct CertifiedSearchParams {
   /// Of the poses kept, those whose cost in the middle of their cell is within this share of the
   /// best such cost, plus `start_margin`, are starting points for refinement.
   double start_share = 0.3;
-  double start_margin = 0.12;        ///< [m]
+  double start_margin = 0.08;        ///< [m]
   std::size_t max_candidates = 200;  ///< the best so many of them
   /// Nodes evaluated at most before the search stops and says up to which cost it is certified; 0:
   /// no limit.
