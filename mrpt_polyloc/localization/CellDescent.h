@@ -35,6 +35,8 @@ class CellDescent {
     std::array<std::vector<Node>, CellTree::kLevels> within;  ///< to be expanded, by level
     std::vector<std::uint32_t> headings;  ///< allowed windows that are to be bounded
     std::vector<unsigned> bounds;         ///< of these
+    std::vector<Node> grouped;
+    std::vector<std::uint32_t> first_of_index;
   };
 
   /// Bounds all nodes of the top level. Keeps references. \param sensor the beams' origin in the
@@ -63,6 +65,7 @@ class CellDescent {
   /// Bounds a node at the windows listed.
   void consider(std::size_t level, std::uint32_t index);
   void list(std::size_t level, std::uint32_t heading);
+  void groupByIndex(std::size_t level, std::vector<Node>& nodes);
   bool allowsPosition(std::size_t level, std::uint32_t index) const;
   bool allowsHeading(std::size_t level, std::uint32_t heading) const;
 
