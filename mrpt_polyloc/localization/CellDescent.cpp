@@ -135,6 +135,7 @@ bool CellDescent::raise(unsigned limit, const std::function<bool()>& is_spent,
       is_complete = !is_spent();
     }
   }
+  groupByIndex(0, workspace_->within[0]);
   leaves.insert(leaves.end(), workspace_->within[0].begin(), workspace_->within[0].end());
   return is_complete;
 }
