@@ -297,7 +297,6 @@ void RangeBandFinder::Workspace::followRuns(const BoundaryChains& chains,
                                             const TPoint2D& middle) {
   near.fill(0.0F);
   far.fill(0.0F);
-  hits.clear();
   for (std::size_t r = 0; r < count; ++r) {
     BoundaryChains::Run run = extended(chains, runs[r]);
     while (r + 1 < count) {
@@ -326,7 +325,7 @@ void RangeBandFinder::Workspace::ranges(float* low, float* high) const {
   }
 }
 
-/// Given the walls' ranges and hits.
+/// Given the ranges, and the hits of walls and open edges.
 void RangeBandFinder::Workspace::findGaps(RangeBands& bands) {
   first_hit.fill(0);
   for (const EdgeHit& hit : hits) ++first_hit[static_cast<std::size_t>(hit.bin) + 1];
@@ -339,7 +338,8 @@ void RangeBandFinder::Workspace::findGaps(RangeBands& bands) {
     const auto end = sorted_hits.begin() + static_cast<std::ptrdiff_t>(first_hit[b + 1]);
     std::sort(begin, end, [](const EdgeHit& a, const EdgeHit& c) { return a.near > c.near; });
     const float farthest = bands.wall_high[b];
-    float reached = bands.wall_low[b], low = 0.0F, high = 0.0F;
+    float reached = std::min(bands.wall_low[b], bands.open_low[b]);
+    float low = 0.0F, high = 0.0F;
     for (auto hit = begin; hit != end; ++hit) {
       if (!(hit->near > 0.0F)) break;  // never met in this bin
       const float from = hit->near >= kGreatest ? 0.0F : 1.0F / hit->near;
@@ -369,17 +369,18 @@ void RangeBandFinder::find(const TPoint2D* cell, std::size_t count, RangeBands& 
                               chains.open().size()};
   const std::int64_t number = index_->cellNumber(middle);
   if (number >= 0) seen = index_->cell(number);
+  w.hits.clear();
   w.followRuns(chains, seen.walls, seen.wall_runs, middle);
   w.ranges(bands.wall_low.data(), bands.wall_high.data());
-  w.findGaps(bands);
   bands.has_open = seen.open_runs > 0;
-  if (!bands.has_open) {
+  if (bands.has_open) {
+    w.followRuns(chains, seen.open, seen.open_runs, middle);
+    w.ranges(bands.open_low.data(), bands.open_high.data());
+  } else {
     bands.open_low.fill(std::numeric_limits<float>::infinity());
     bands.open_high.fill(std::numeric_limits<float>::infinity());
-    return;
   }
-  w.followRuns(chains, seen.open, seen.open_runs, middle);
-  w.ranges(bands.open_low.data(), bands.open_high.data());
+  w.findGaps(bands);
 }
 
 }  // namespace mrpt_polyloc

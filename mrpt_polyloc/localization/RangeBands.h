@@ -15,8 +15,9 @@ constexpr double kBandBinWidth = kTwoPi / static_cast<double>(kBandBins);  ///< 
 
 /// For every angular bin, bounds of what is predicted from all points of a cell in all directions
 /// of the bin [m]: of the range to the first wall, and of the range at which an open edge is met
-/// (infinity: none may be, or not from everywhere). Where a nearer wall ends within a bin, a wall's
-/// ranges have a gap: between gap_low and gap_high is no first wall (the widest gap; both 0: none).
+/// (infinity: none may be, or not from everywhere). Where a nearer wall ends within a bin, the
+/// ranges have a gap: no wall and no open edge is met first between gap_low and gap_high (the widest
+/// gap; both 0: none).
 struct RangeBands {
   std::array<float, kBandBins> wall_low, wall_high;
   std::array<float, kBandBins> gap_low, gap_high;

@@ -2,6 +2,7 @@
 #include "tests/support/random_maps.h"
 #include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/localization/CellTree.h>
+#include <mrpt_polyloc/localization/RangeBytes.h>
 
 #include <gtest/gtest.h>
 
@@ -42,13 +43,10 @@ std::pair<std::size_t, std::size_t> cellsOf(const CellTree& tree, std::size_t le
   return {first, last};
 }
 
-double unitsOf(double range) {
-  return std::min(range * RangeUnits::kPerMeter, 1e6);
-}
-
 TEST(CellTree, EveryNodeHoldsWhatIsSeenFromItsCellsOverItsWindow) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::size_t gaps = 0;
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const TreeOfMap built(floorPlan(randomParams(random), seed));
@@ -64,18 +62,26 @@ TEST(CellTree, EveryNodeHoldsWhatIsSeenFromItsCellsOverItsWindow) {
         const double offset = unit(random) * static_cast<double>(CellTree::kWindow[level]);
         const RayHit hit = built.rays.cast(p, (static_cast<double>(bin) + offset) * kBandBinWidth);
         const CellTree::Bands bands = tree.bands(level, node);
-        const double near = std::min(hit.wall, hit.open);
-        EXPECT_LE(bands.near_low[bin], unitsOf(near) + 0.2);
-        EXPECT_GE(bands.wall_high[bin] + 0.2, std::min(unitsOf(hit.wall), 65534.0));
-        if (std::isfinite(hit.open)) {
-          EXPECT_EQ(bands.wall_high[bin] & 1, 1);
+        const double u = RangeBytes::unit(bands.scale);
+        const double near = std::min(hit.wall, hit.open), slack = 2e-3;
+        EXPECT_LE(bands.near_low[bin] * u, near + slack);
+        if (bands.wall_high[bin] < RangeBytes::kGreatest) {
+          EXPECT_GE(bands.wall_high[bin] * u, hit.wall - slack);
         }
-        if (bands.near_high == nullptr) continue;
-        EXPECT_GE(bands.near_high[bin] + 0.2, std::min(unitsOf(near), 65535.0));
-        EXPECT_LE(bands.wall_low[bin], unitsOf(hit.wall) + 0.2);
+        const auto is_in_gap = [&](double range) {
+          return range > bands.gap_low[bin] * u + slack && range < bands.gap_high[bin] * u - slack;
+        };
+        gaps += bands.gap_low[bin] < bands.gap_high[bin];
+        EXPECT_FALSE(is_in_gap(hit.wall));
+        EXPECT_FALSE(is_in_gap(near));
+        if (std::isfinite(hit.open)) {
+          EXPECT_TRUE(bands.has_open);
+          EXPECT_EQ(bands.gap_low[bin] & 1, 1);
+        }
       }
     }
   }
+  EXPECT_GT(gaps, 300U);
 }
 
 TEST(CellTree, EveryLevelHoldsEveryCellOnce) {
@@ -113,13 +119,16 @@ TEST(CellTree, ViewsFromTheMiddleArePredictedRanges) {
   const TreeOfMap built(floorPlan(randomParams(random), 4));
   std::size_t apart = 0, compared = 0;
   for (std::size_t cell = 0; cell < built.tree.nodes(0).size(); cell += 3) {
-    const CellTree::Bands view = built.tree.middleView(cell);
+    const CellTree::View view = built.tree.middleView(cell);
     for (std::size_t bin = 0; bin < kBandBins; bin += 5) {
       const RayHit hit =
           built.rays.cast(built.tree.middle(cell), static_cast<double>(bin) * kBandBinWidth);
-      const double near = std::min(unitsOf(std::min(hit.wall, hit.open)), 65534.0);
       ++compared;
-      apart += std::abs(view.near_low[bin] - near) > 2.5;
+      const double near = view.near[bin] * CellTree::kViewUnit;
+      const double wall = view.wall[bin] * CellTree::kViewUnit;
+      const double most = 511.99;  // of 16 bits
+      apart += std::abs(near - std::min({hit.wall, hit.open, most})) > 0.01 ||
+               std::abs(wall - std::min(hit.wall, most)) > 0.01;
     }
   }
   EXPECT_LT(static_cast<double>(apart), 5e-3 * static_cast<double>(compared));  // grazing rays
@@ -145,7 +154,8 @@ TEST(CellTree, RefusesDataThatDoNotFitTogether) {
   EXPECT_NO_THROW(CellTree{built.tree.data()});
   refuses([](CellTree::Data& d) { d.cell_size = 0.0; });
   refuses([](CellTree::Data& d) { d.first_vertex.back() += 1; });
-  refuses([](CellTree::Data& d) { d.first_view.back() += 1; });
+  refuses([](CellTree::Data& d) { d.views.pop_back(); });
+  refuses([](CellTree::Data& d) { d.levels[1].nodes.back().scale = 99; });
   refuses([](CellTree::Data& d) { d.levels[0].codes.pop_back(); });
   refuses([](CellTree::Data& d) { d.levels[1].boxes.pop_back(); });
   refuses([](CellTree::Data& d) { d.levels[2].nodes.back().child_count += 100; });

@@ -49,7 +49,8 @@ TPoint2D pointIn(const TPoint2D* polygon, std::size_t count, std::mt19937& rando
 struct Tally {
   std::size_t rays = 0;
   std::size_t outside = 0;
-  double worst = 0.0;  ///< how far outside [m]
+  std::size_t in_gaps = 0;   ///< bins that have one
+  double worst = 0.0;        ///< how far outside [m]
 };
 
 void expectWithin(double range, float low, float high, Tally& tally) {
@@ -57,6 +58,15 @@ void expectWithin(double range, float low, float high, Tally& tally) {
   const double slack = 1e-3 + 1e-4 * (std::isfinite(range) ? range : 0.0);
   ++tally.rays;
   const double off = std::max(static_cast<double>(low) - range, range - static_cast<double>(high));
+  if (!(off > slack)) return;
+  ++tally.outside;
+  tally.worst = std::max(tally.worst, off);
+}
+
+/// Nothing is first met at `range` within a gap.
+void expectOutside(double range, float low, float high, Tally& tally) {
+  const double slack = 1e-3 + 1e-4 * (std::isfinite(range) ? range : 0.0);
+  const double off = std::min(range - static_cast<double>(low), static_cast<double>(high) - range);
   if (!(off > slack)) return;
   ++tally.outside;
   tally.worst = std::max(tally.worst, off);
@@ -88,6 +98,9 @@ Tally checkCells(const MapWithBands& built, std::size_t cells, std::uint32_t see
       }
       expectWithin(std::min(hit.open, hit.wall), std::min(bands.open_low[bin], bands.wall_low[bin]),
                    std::min(bands.open_high[bin], bands.wall_high[bin]), tally);
+      tally.in_gaps += bands.gap_high[bin] > bands.gap_low[bin];
+      expectOutside(hit.wall, bands.gap_low[bin], bands.gap_high[bin], tally);
+      expectOutside(std::min(hit.open, hit.wall), bands.gap_low[bin], bands.gap_high[bin], tally);
     }
   }
   return tally;
@@ -106,12 +119,33 @@ TEST(RangeBands, HoldWhatIsSeenInNamedMaps) {
 
 TEST(RangeBands, HoldWhatIsSeenInRandomMaps) {
   std::mt19937 random(4);
+  std::size_t gaps = 0, rays = 0;
   for (std::uint32_t seed = 0; seed < 16; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const MapWithBands built(floorPlan(randomParams(random), seed), seed % 2 == 0 ? 0.2 : 0.4);
     const Tally tally = checkCells(built, 80, seed);
     EXPECT_EQ(tally.outside, 0U) << "of " << tally.rays << ", by " << tally.worst << " m";
+    gaps += tally.in_gaps;
+    rays += tally.rays;
   }
+  EXPECT_GT(gaps, rays / 50);  // else they were not tested
+}
+
+TEST(RangeBands, TellANearWallFromWhatIsSeenPastItsEnd) {
+  // From the left, the bin past the tip of the screen shows the screen at 2 m or the wall at 6 m.
+  const PolygonMap map =
+      mapOf(rectangle(-4, -4, 6, 4), {rectangle(2.0, -4.0 + 1e-3, 2.05, 0.0)});
+  const MapWithBands built(map, 0.25);
+  const TPoint2D cell[] = {{-0.05, -0.05}, {0.05, -0.05}, {0.05, 0.05}, {-0.05, 0.05}};
+  RangeBands bands;
+  RangeBandFinder(built.index).find(cell, 4, bands);
+  for (const std::size_t bin : {std::size_t{0}, kBandBins - 1}) {
+    EXPECT_NEAR(bands.wall_low[bin], 1.95, 0.01);
+    EXPECT_NEAR(bands.wall_high[bin], 6.06, 0.02);
+    EXPECT_NEAR(bands.gap_low[bin], 2.1, 0.05);
+    EXPECT_NEAR(bands.gap_high[bin], 5.95, 0.01);
+  }
+  EXPECT_EQ(bands.gap_high[kBandBins / 2], 0.0F);  // one wall alone
 }
 
 }  // namespace
