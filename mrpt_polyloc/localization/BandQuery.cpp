@@ -97,8 +97,8 @@ BandQuery::BandQuery(const RangeScan& scan, const RobustCostParams& cost) {
   cap_short_view = in_view_units(cost.tau_short, kGreatestCap);
   cap_open_view = in_view_units(cost.tau_open, kGreatestCap);
   constexpr int kMostOfAByte = RangeBytes::kGreatest / kVectors;
-  has_wide_caps = std::max({scaled[0].cap_short, scaled[0].cap_long, scaled[0].cap_none}) >
-                  kMostOfAByte;
+  has_wide_caps =
+      std::max({scaled[0].cap_short, scaled[0].cap_long, scaled[0].cap_none}) > kMostOfAByte;
   for (std::size_t i = 0; i < kRoom; ++i) {
     const Beam* beam = chosen[i % kBandBins];
     short_view[i] = 0xFFFF;

@@ -30,8 +30,7 @@ struct BandQuery {
   double heading(double h) const { return h * kBandBinWidth - phase; }
   /// The search cost [m] that stands for a sum of units, the finest ones of RangeBytes.
   double meters(unsigned units) const {
-    return static_cast<double>(units) * RangeBytes::kFinestUnit /
-           static_cast<double>(beams.size());
+    return static_cast<double>(units) * RangeBytes::kFinestUnit / static_cast<double>(beams.size());
   }
   unsigned units(double meters) const {
     return static_cast<unsigned>(meters / RangeBytes::kFinestUnit *
@@ -62,9 +61,9 @@ struct BandQuery {
   std::vector<Beam> beams;  ///< those that take part
 };
 
-/// Lower bounds of the search cost, RobustCost summed over the query's beams [units], over all poses
-/// of a node at one window of headings after another: positions of its cells, headings from bin
-/// `headings[i]` (less than kBandBins) on, as many as its level's window.
+/// Lower bounds of the search cost, RobustCost summed over the query's beams [units], over all
+/// poses of a node at one window of headings after another: positions of its cells, headings from
+/// bin `headings[i]` (less than kBandBins) on, as many as its level's window.
 void boundCosts(const CellTree::Bands& bands, const BandQuery& query, const std::uint32_t* headings,
                 std::size_t count, unsigned* bounds);
 

@@ -159,10 +159,11 @@ void CellDescent::dive(std::size_t width, std::vector<Node>& leaves) {
 }
 
 bool CellDescent::isDone() const {
-  return std::all_of(workspace_->waiting.begin(), workspace_->waiting.end(), [](const auto& buckets) {
-    return std::all_of(buckets.begin(), buckets.end(),
-                       [](const std::vector<Node>& nodes) { return nodes.empty(); });
-  });
+  return std::all_of(
+      workspace_->waiting.begin(), workspace_->waiting.end(), [](const auto& buckets) {
+        return std::all_of(buckets.begin(), buckets.end(),
+                           [](const std::vector<Node>& nodes) { return nodes.empty(); });
+      });
 }
 
 }  // namespace mrpt_polyloc

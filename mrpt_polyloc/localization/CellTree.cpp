@@ -265,7 +265,7 @@ CellTree::Bands CellTree::bands(std::size_t level, std::size_t node) const {
   const Level& l = data_.levels[level];
   const Node& n = l.nodes[node];
   const std::uint8_t* first = &l.codes[node * kArrays * kStride];
-  return {first,   first + kStride,  first + 2 * kStride, first + 3 * kStride,
+  return {first,   first + kStride, first + 2 * kStride, first + 3 * kStride,
           n.scale, n.has_open != 0};
 }
 

@@ -38,7 +38,7 @@ class CellTree {
   /// Entries of an array: the bins, and the first ones again, for whole vectors and windows that
   /// begin at any bin.
   static constexpr std::size_t kStride = 192;
-  static constexpr std::size_t kArrays = 4;  ///< of a node, see Bands
+  static constexpr std::size_t kArrays = 4;       ///< of a node, see Bands
   static constexpr std::size_t kViewArrays = 2;   ///< of a cell, see View
   static constexpr double kViewUnit = 1.0 / 128;  ///< [m]
 
@@ -69,8 +69,8 @@ class CellTree {
     bool has_open;
   };
 
-  /// What is predicted from the middle of a cell in the directions where the bins begin [kViewUnit]:
-  /// the range to the first wall, and to an open edge if that comes before.
+  /// What is predicted from the middle of a cell in the directions where the bins begin
+  /// [kViewUnit]: the range to the first wall, and to an open edge if that comes before.
   struct View {
     const std::uint16_t *near, *wall;
   };

@@ -167,8 +167,9 @@ CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
     refined.take(starts.best(kRefined));
     const double least = refined.cost();
     const bool is_found = std::isfinite(least);
-    const unsigned target =
-        is_found ? query.units(least * (1.0 + params.margin_share) + params.margin) : kGrowth * limit;
+    const unsigned target = is_found
+                                ? query.units(least * (1.0 + params.margin_share) + params.margin)
+                                : kGrowth * limit;
     if (target <= limit || descent.isDone()) {
       certified = target;
       break;

@@ -56,9 +56,9 @@ struct CertifiedSearchResult {
 /// Moves a pose of the beam frame to where the scan fits better; returns its search cost [m].
 using RefinedCost = std::function<double(const mrpt::math::TPose2D& pose_map_beams)>;
 
-/// Branch and bound over (cell, window of headings). The limit rises in a few steps, until it reaches
-/// the least cost that the poses found on the way have once refined, plus the margin. What is
-/// bounded above it is left out; what remains of the cells are the regions.
+/// Branch and bound over (cell, window of headings). The limit rises in a few steps, until it
+/// reaches the least cost that the poses found on the way have once refined, plus the margin. What
+/// is bounded above it is left out; what remains of the cells are the regions.
 ///
 /// \param sensor the beams' origin in the robot frame, to hold `prior`, which speaks of the robot,
 /// against

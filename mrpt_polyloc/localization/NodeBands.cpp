@@ -16,7 +16,8 @@ struct Interval {
 
 /// Where a beam's range costs something, in all of a bin.
 std::array<Interval, 3> excluded(const BinBand& band) {
-  return {{{-kInfinity, band.near_low}, {band.gap_low, band.gap_high}, {band.wall_high, kInfinity}}};
+  return {
+      {{-kInfinity, band.near_low}, {band.gap_low, band.gap_high}, {band.wall_high, kInfinity}}};
 }
 
 BinBand unionOf(const BinBand& a, const BinBand& b) {

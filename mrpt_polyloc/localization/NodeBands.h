@@ -12,8 +12,8 @@ namespace mrpt_polyloc {
 ///  - below `near_low` it falls short of all walls and open edges, by near_low - z at least;
 ///  - above `wall_high` it has passed a wall, by z - wall_high at least;
 ///  - between `gap_low` and `gap_high` it is either past a wall, by z - gap_low at least, or short
-///    of one, by gap_high - z at least, perhaps beyond an open edge. Where a nearer wall ends within
-///    the bin, the ranges are its and those of what is seen past it, and nothing between.
+///    of one, by gap_high - z at least, perhaps beyond an open edge. Where a nearer wall ends
+///    within the bin, the ranges are its and those of what is seen past it, and nothing between.
 /// gap_low >= gap_high: no such gap.
 struct BinBand {
   float near_low, wall_high, gap_low, gap_high;

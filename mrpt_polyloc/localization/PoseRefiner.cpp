@@ -107,7 +107,8 @@ RefinedPose PoseRefiner::refine(const mrpt::math::TPose2D& start) const {
     pose.y += s * step[0] + c * step[1];
     pose.phi += step[2];
     equations = linearize();
-    if (step.head<2>().norm() < params_.step_tolerance && std::abs(step[2]) < params_.turn_tolerance) {
+    if (step.head<2>().norm() < params_.step_tolerance &&
+        std::abs(step[2]) < params_.turn_tolerance) {
       break;
     }
   }

@@ -16,8 +16,8 @@ constexpr double kBandBinWidth = kTwoPi / static_cast<double>(kBandBins);  ///< 
 /// For every angular bin, bounds of what is predicted from all points of a cell in all directions
 /// of the bin [m]: of the range to the first wall, and of the range at which an open edge is met
 /// (infinity: none may be, or not from everywhere). Where a nearer wall ends within a bin, the
-/// ranges have a gap: no wall and no open edge is met first between gap_low and gap_high (the widest
-/// gap; both 0: none).
+/// ranges have a gap: no wall and no open edge is met first between gap_low and gap_high (the
+/// widest gap; both 0: none).
 struct RangeBands {
   std::array<float, kBandBins> wall_low, wall_high;
   std::array<float, kBandBins> gap_low, gap_high;
@@ -34,8 +34,8 @@ struct RangeBands {
 /// every point of it, the chain begins before the bin and ends after it (the directions of its
 /// points are continuous along it); then some edge of it that faces the point is hit, and no such
 /// edge reaches farther in the bin than the same bounds from outside allow. The bin's greatest
-/// range is the least over all blocking stretches of chains. *Gap*: each edge that faces the cell is
-/// hit in the bin between the same two bounds only; the widest stretch between the least and the
+/// range is the least over all blocking stretches of chains. *Gap*: each edge that faces the cell
+/// is hit in the bin between the same two bounds only; the widest stretch between the least and the
 /// greatest range that no edge's bounds reach into.
 ///
 /// Holds for points at least some micrometres away from all vertices of the map.

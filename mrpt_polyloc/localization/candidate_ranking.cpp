@@ -53,8 +53,7 @@ std::vector<RankedPose> refine(const std::vector<mrpt::math::TPose2D>& candidate
   if (poses.size() > 2 * kept) poses.resize(2 * kept);
   // Those that cost much more than the best will not become it.
   constexpr double kWorthShare = 1.25, kWorthMargin = 0.03;  // measured, [m]
-  const double most_cost =
-      poses.empty() ? 0.0 : kWorthShare * poses.front().cost + kWorthMargin;
+  const double most_cost = poses.empty() ? 0.0 : kWorthShare * poses.front().cost + kWorthMargin;
   for (RankedPose& pose : poses) {
     if (pose.cost > most_cost) break;
     const RefinedPose refined = fine.refine(pose.refined.pose_map_beams);

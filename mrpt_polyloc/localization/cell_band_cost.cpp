@@ -59,8 +59,8 @@ POLYLOC_LANES void loadBins(const CellTree::Bands& bands, std::size_t first, Bin
 
 /// The cases of BinBand: at most one of them costs a beam anything.
 template <bool has_open, bool has_no_returns>
-POLYLOC_LANES void costsOf(const Bins& bins, const BandQuery& query,
-                           const BandQuery::Scaled& scan, std::size_t rotated, Bytes& costs) {
+POLYLOC_LANES void costsOf(const Bins& bins, const BandQuery& query, const BandQuery::Scaled& scan,
+                           std::size_t rotated, Bytes& costs) {
   Bytes short_range, long_range;
   load(scan.short_range.data() + rotated, short_range);
   load(scan.long_range.data() + rotated, long_range);

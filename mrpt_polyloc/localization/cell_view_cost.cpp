@@ -5,8 +5,8 @@
 namespace mrpt_polyloc {
 namespace {
 
-using lanes::Words;
 using lanes::load, lanes::lower, lanes::raise, lanes::takeExcess;
+using lanes::Words;
 
 constexpr std::size_t kLanes = lanes::kBytes / sizeof(std::uint16_t);
 constexpr lanes::FirstLanes<std::uint16_t, kBandBins % kLanes> kLast;

@@ -8,8 +8,8 @@
 #include <emmintrin.h>
 #endif
 
-/// Vectors of 64 bytes as the compiler's own types: one AVX-512 register, or two of AVX2, or four of
-/// SSE2. For hot loops; their results are taken by reference, as such types have no one form in
+/// Vectors of 64 bytes as the compiler's own types: one AVX-512 register, or two of AVX2, or four
+/// of SSE2. For hot loops; their results are taken by reference, as such types have no one form in
 /// calls between functions that are compiled for different machines.
 namespace mrpt_polyloc::lanes {
 

@@ -20,8 +20,8 @@ struct PredictedRanges {
   std::vector<float> open;
 };
 
-/// The line of the first wall that each beam of one pose hits, in the beam frame: its normal divided
-/// by its distance [1/m]. The range to the wall is 1 / (along * cos(bearing) + across *
+/// The line of the first wall that each beam of one pose hits, in the beam frame: its normal
+/// divided by its distance [1/m]. The range to the wall is 1 / (along * cos(bearing) + across *
 /// sin(bearing)); both are 0 where no wall is hit.
 struct PredictedHits {
   std::vector<float> along, across;

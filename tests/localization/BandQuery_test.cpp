@@ -76,8 +76,12 @@ struct RandomBands {
         (*values)[b] = (*values)[b - kBandBins];
       }
     }
-    bands = {near_low.data(), wall_high.data(), gap_low.data(), gap_high.data(),
-             random() % RangeBytes::kScales, has_open};
+    bands = {near_low.data(),
+             wall_high.data(),
+             gap_low.data(),
+             gap_high.data(),
+             random() % RangeBytes::kScales,
+             has_open};
   }
   std::vector<std::uint8_t> near_low, wall_high, gap_low, gap_high;
   CellTree::Bands bands{};
@@ -112,7 +116,8 @@ unsigned plainBound(const RandomBands& r, const BandQuery& query, std::size_t he
     }
     const int below = units(beam.range);
     const int above = std::min(static_cast<int>(std::ceil(beam.range / unit)), 255);
-    sum += std::clamp(std::min(r.near_low[bin], r.near_low[next]) - above, 0, units(cost.tau_short));
+    sum +=
+        std::clamp(std::min(r.near_low[bin], r.near_low[next]) - above, 0, units(cost.tau_short));
     sum += std::clamp(below - wall_high, 0, units(cost.tau_long));
     const int past = below - std::max(r.gap_low[bin], r.gap_low[next]);
     const int before = std::min(r.gap_high[bin], r.gap_high[next]) - above;
@@ -193,8 +198,9 @@ TEST(BandQuery, BoundsNeverExceedTheCostOfAPose) {
       const std::size_t level = random() % CellTree::kLevels;
       const std::size_t node = ancestor(tree, cell, level);
       const std::size_t first = random() % kBandBins;
-      const double phi = query.heading(static_cast<double>(first) +
-                                       unit(random) * static_cast<double>(CellTree::kWindow[level]));
+      const double phi =
+          query.heading(static_cast<double>(first) +
+                        unit(random) * static_cast<double>(CellTree::kWindow[level]));
       double sum = 0.0;
       for (const Beam& beam : query.beams) {
         const RayHit hit = rays.cast(p, phi + beam.bearing);

@@ -49,8 +49,8 @@ TPoint2D pointIn(const TPoint2D* polygon, std::size_t count, std::mt19937& rando
 struct Tally {
   std::size_t rays = 0;
   std::size_t outside = 0;
-  std::size_t in_gaps = 0;   ///< bins that have one
-  double worst = 0.0;        ///< how far outside [m]
+  std::size_t in_gaps = 0;  ///< bins that have one
+  double worst = 0.0;       ///< how far outside [m]
 };
 
 void expectWithin(double range, float low, float high, Tally& tally) {
@@ -133,8 +133,7 @@ TEST(RangeBands, HoldWhatIsSeenInRandomMaps) {
 
 TEST(RangeBands, TellANearWallFromWhatIsSeenPastItsEnd) {
   // From the left, the bin past the tip of the screen shows the screen at 2 m or the wall at 6 m.
-  const PolygonMap map =
-      mapOf(rectangle(-4, -4, 6, 4), {rectangle(2.0, -4.0 + 1e-3, 2.05, 0.0)});
+  const PolygonMap map = mapOf(rectangle(-4, -4, 6, 4), {rectangle(2.0, -4.0 + 1e-3, 2.05, 0.0)});
   const MapWithBands built(map, 0.25);
   const TPoint2D cell[] = {{-0.05, -0.05}, {0.05, -0.05}, {0.05, 0.05}, {-0.05, 0.05}};
   RangeBands bands;
