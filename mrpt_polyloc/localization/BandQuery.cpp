@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mrpt_polyloc {
 namespace {
@@ -39,24 +40,48 @@ std::pair<double, std::size_t> commonPhase(const std::vector<Beam>& beams) {
 
 }  // namespace
 
-BandQuery::BandQuery(const RangeScan& scan, const RobustCostParams& cost) {
+BandQuery::BandQuery(const RangeScan& scan, const RobustCostParams& cost,
+                     SearchMetric search_metric)
+    : metric(search_metric) {
   std::vector<Beam> informative;
   for (const Beam& beam : scan.beams()) {
-    if (beam.kind != BeamKind::invalid) informative.push_back(beam);
+    const bool is_robust = metric == SearchMetric::robust;
+    if (beam.kind == BeamKind::hit || (is_robust && beam.kind == BeamKind::no_return)) {
+      informative.push_back(beam);
+    }
   }
+  const ChosenBeams chosen = choose(informative);
+  for (const Beam* beam : chosen) {
+    if (beam != nullptr) beams.push_back(*beam);
+  }
+  for (std::size_t i = 0; i < kRoom; ++i) {
+    for (std::size_t k = i; k < std::min(i + kLanes, kRoom) && !informs_from[i]; ++k) {
+      informs_from[i] = chosen[k % kBandBins] != nullptr;
+    }
+    const Beam* beam = chosen[i % kBandBins];
+    if (beam == nullptr || beam->kind != BeamKind::no_return) continue;
+    no_return[i] = 0xFF;
+    no_return_view[i] = 0xFFFF;
+    has_no_returns = true;
+  }
+  takeRanges(chosen, cost);
+  takeViewRanges(chosen, cost);
+}
+
+/// Sets the phase.
+BandQuery::ChosenBeams BandQuery::choose(const std::vector<Beam>& informative) {
   const auto [common, in_phase] = commonPhase(informative);
-  std::array<const Beam*, kBandBins> chosen{};
-  std::size_t occupied = 0;
+  std::array<bool, kBandBins> is_occupied{};
   for (const Beam& beam : informative) {
-    const auto bin = static_cast<std::size_t>(placeOf(beam)) % kBandBins;
-    occupied += chosen[bin] == nullptr;
-    chosen[bin] = &beam;
+    is_occupied[static_cast<std::size_t>(placeOf(beam)) % kBandBins] = true;
   }
-  chosen.fill(nullptr);
   // Enough: most of the bins that could be filled; some beams may be invalid.
+  const auto occupied =
+      static_cast<std::size_t>(std::count(is_occupied.begin(), is_occupied.end(), true));
   is_in_phase = 2 * in_phase >= occupied;
   const double shift = is_in_phase ? common : 0.0;
   phase = shift * kBandBinWidth;
+  ChosenBeams chosen{};
   std::array<double, kBandBins> distance;
   distance.fill(2.0);
   for (const Beam& beam : informative) {
@@ -73,6 +98,10 @@ BandQuery::BandQuery(const RangeScan& scan, const RobustCostParams& cost) {
       chosen[bin] = &beam;
     }
   }
+  return chosen;
+}
+
+void BandQuery::takeRanges(const ChosenBeams& chosen, const RobustCostParams& cost) {
   for (std::size_t scale = 0; scale < RangeBytes::kScales; ++scale) {
     Scaled& to = scaled[scale];
     const double cap_gap = std::min(cost.tau_short, cost.tau_long);
@@ -81,6 +110,9 @@ BandQuery::BandQuery(const RangeScan& scan, const RobustCostParams& cost) {
     to.cap_none = RangeBytes::down(cost.tau_none, scale);
     to.cap_gap = RangeBytes::down(cap_gap, scale);
     to.cap_open_gap = RangeBytes::down(std::min(cap_gap, cost.tau_open), scale);
+    if (metric == SearchMetric::polar) {
+      to.cap_short = to.cap_long = to.cap_gap = to.cap_open_gap = RangeBytes::kGreatest;
+    }
     for (std::size_t i = 0; i < kRoom; ++i) {
       const Beam* beam = chosen[i % kBandBins];
       const bool is_hit = beam != nullptr && beam->kind == BeamKind::hit;
@@ -90,36 +122,43 @@ BandQuery::BandQuery(const RangeScan& scan, const RobustCostParams& cost) {
                                          : RangeBytes::down(cost.none_share * beam->range, scale);
     }
   }
-  const auto in_view_units = [](double meters, double most = 65535.0) {
+  constexpr int kMostOfAByte = RangeBytes::kGreatest / kVectors;
+  const Scaled& finest = scaled[0];
+  has_wide_caps = std::max({finest.cap_short, finest.cap_long, finest.cap_none}) > kMostOfAByte;
+}
+
+void BandQuery::takeViewRanges(const ChosenBeams& chosen, const RobustCostParams& cost) {
+  const auto in_units = [](double meters, double most = 65535.0) {
     return static_cast<std::uint16_t>(std::clamp(meters / CellTree::kViewUnit, 0.0, most));
   };
   constexpr double kGreatestCap = 65535 / 6;  // sums of words must not overflow
-  cap_short_view = in_view_units(cost.tau_short, kGreatestCap);
-  cap_open_view = in_view_units(cost.tau_open, kGreatestCap);
-  constexpr int kMostOfAByte = RangeBytes::kGreatest / kVectors;
-  has_wide_caps =
-      std::max({scaled[0].cap_short, scaled[0].cap_long, scaled[0].cap_none}) > kMostOfAByte;
+  cap_short_view = in_units(cost.tau_short, kGreatestCap);
+  cap_open_view = in_units(cost.tau_open, kGreatestCap);
   for (std::size_t i = 0; i < kRoom; ++i) {
     const Beam* beam = chosen[i % kBandBins];
     short_view[i] = 0xFFFF;
     if (beam == nullptr) continue;
     if (beam->kind == BeamKind::hit) {
-      short_view[i] = long_view[i] = in_view_units(beam->range);
-      cap_long_view[i] = in_view_units(cost.tau_long, kGreatestCap);
+      short_view[i] = long_view[i] = in_units(beam->range);
+      cap_long_view[i] = in_units(cost.tau_long, kGreatestCap);
     } else {
-      long_view[i] = in_view_units(cost.none_share * beam->range);
-      cap_long_view[i] = in_view_units(cost.tau_none, kGreatestCap);
-      no_return[i] = 0xFF;
-      no_return_view[i] = 0xFFFF;
-      has_no_returns = true;
-    }
-    if (i < kBandBins) beams.push_back(*beam);
-  }
-  for (std::size_t i = 0; i < kRoom; ++i) {
-    for (std::size_t k = i; k < std::min(i + kLanes, kRoom) && !informs_from[i]; ++k) {
-      informs_from[i] = chosen[k % kBandBins] != nullptr;
+      long_view[i] = in_units(cost.none_share * beam->range);
+      cap_long_view[i] = in_units(cost.tau_none, kGreatestCap);
     }
   }
+}
+
+double BandQuery::meters(unsigned units) const {
+  const double mean = static_cast<double>(units) / static_cast<double>(beams.size());
+  return (metric == SearchMetric::polar ? std::sqrt(mean) : mean) * RangeBytes::kFinestUnit;
+}
+
+unsigned BandQuery::units(double meters) const {
+  const double each = meters / RangeBytes::kFinestUnit;
+  const double sum =
+      (metric == SearchMetric::polar ? each * each : each) * static_cast<double>(beams.size());
+  constexpr auto kMost = std::numeric_limits<unsigned>::max();
+  return sum < static_cast<double>(kMost) ? static_cast<unsigned>(sum) : kMost;
 }
 
 }  // namespace mrpt_polyloc

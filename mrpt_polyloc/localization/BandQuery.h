@@ -4,6 +4,7 @@
 #include <mrpt_polyloc/localization/RangeBytes.h>
 #include <mrpt_polyloc/localization/RangeScan.h>
 #include <mrpt_polyloc/localization/RobustCost.h>
+#include <mrpt_polyloc/localization/SearchMetric.h>
 
 #include <array>
 #include <cstddef>
@@ -24,18 +25,17 @@ struct BandQuery {
   static constexpr std::size_t kVectors = 3;
   static constexpr std::size_t kRoom = 384;  ///< the circle twice, in whole vectors
 
-  explicit BandQuery(const RangeScan& scan, const RobustCostParams& cost = {});
+  /// \param cost truncations of the robust metric
+  explicit BandQuery(const RangeScan& scan, const RobustCostParams& cost = {},
+                     SearchMetric search_metric = SearchMetric::robust);
 
   /// Heading of the beam frame at the begin of heading bin h (0 to kBandBins - 1) [rad].
   double heading(double h) const { return h * kBandBinWidth - phase; }
-  /// The search cost [m] that stands for a sum of units, the finest ones of RangeBytes.
-  double meters(unsigned units) const {
-    return static_cast<double>(units) * RangeBytes::kFinestUnit / static_cast<double>(beams.size());
-  }
-  unsigned units(double meters) const {
-    return static_cast<unsigned>(meters / RangeBytes::kFinestUnit *
-                                 static_cast<double>(beams.size()));
-  }
+  /// The search cost [m] that stands for a sum of units: of the finest unit of RangeBytes, or of
+  /// its square for the polar metric.
+  double meters(unsigned units) const;
+  /// The other way round, rounded down; the greatest where it would be exceeded.
+  unsigned units(double meters) const;
 
   /// The scan in RangeBytes of one scale, by the bin of a beam's bearing, the circle twice.
   struct Scaled {
@@ -54,16 +54,23 @@ struct BandQuery {
       no_return_view{};
   std::uint16_t cap_short_view = 0, cap_open_view = 0;
   std::array<bool, kRoom> informs_from{};  ///< whether a vector from there on holds a beam
-  bool has_wide_caps = false;              ///< sums of bytes might overflow
-  double phase = 0.0;                      ///< [rad]
-  bool is_in_phase = true;                 ///< every beam meets one bin per heading
+  SearchMetric metric;
+  bool has_wide_caps = false;  ///< sums of bytes might overflow
+  double phase = 0.0;          ///< [rad]
+  bool is_in_phase = true;     ///< every beam meets one bin per heading
   bool has_no_returns = false;
   std::vector<Beam> beams;  ///< those that take part
+
+ private:
+  using ChosenBeams = std::array<const Beam*, kBandBins>;  ///< one a bin, or null
+  ChosenBeams choose(const std::vector<Beam>& informative);
+  void takeRanges(const ChosenBeams& chosen, const RobustCostParams& cost);
+  void takeViewRanges(const ChosenBeams& chosen, const RobustCostParams& cost);
 };
 
-/// Lower bounds of the search cost, RobustCost summed over the query's beams [units], over all
-/// poses of a node at one window of headings after another: positions of its cells, headings from
-/// bin `headings[i]` (less than kBandBins) on, as many as its level's window.
+/// Lower bounds of the search cost [units] over all poses of a node at one window of headings after
+/// another: positions of its cells, headings from bin `headings[i]` (less than kBandBins) on, as
+/// many as its level's window.
 void boundCosts(const CellTree::Bands& bands, const BandQuery& query, const std::uint32_t* headings,
                 std::size_t count, unsigned* bounds);
 

@@ -106,6 +106,12 @@ class Budget {
   Stopwatch watch_;
 };
 
+/// The next limit, while it is not known how good the best is.
+unsigned grown(unsigned limit) {
+  constexpr unsigned kGrowth = 4, kMost = std::numeric_limits<unsigned>::max();
+  return limit < kMost / kGrowth ? std::max(kGrowth * limit, 1U) : kMost;
+}
+
 /// So many are refined to find how good the best is.
 constexpr std::size_t kRefined = 5;
 
@@ -153,7 +159,6 @@ CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
   // The first limits are below what noise alone costs: few leaves are within them, the right one
   // mostly among them, as bounds are well below costs.
   constexpr double kFirstLimit = 0.01;  // [m]
-  constexpr unsigned kGrowth = 4;
   constexpr std::size_t kDiveWidth = 64;
   Starts starts(tree, query, params);
   LeastRefined refined(refined_cost);
@@ -167,15 +172,14 @@ CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
     refined.take(starts.best(kRefined));
     const double least = refined.cost();
     const bool is_found = std::isfinite(least);
-    const unsigned target = is_found
-                                ? query.units(least * (1.0 + params.margin_share) + params.margin)
-                                : kGrowth * limit;
+    const unsigned target =
+        is_found ? query.units(least * (1.0 + params.margin_share) + params.margin) : grown(limit);
     if (target <= limit || descent.isDone()) {
       certified = target;
       break;
     }
     certified = limit;
-    limit = std::min(target, kGrowth * limit);
+    limit = std::min(target, grown(limit));
   }
 
   result.candidates = starts.best(params.max_candidates);

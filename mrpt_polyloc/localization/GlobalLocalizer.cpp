@@ -102,14 +102,17 @@ std::vector<TPose2D> GlobalLocalizer::Impl::search(const RangeScan& scan, const 
 std::vector<TPose2D> GlobalLocalizer::Impl::searchCertified(const RangeScan& scan,
                                                             const PosePrior& prior,
                                                             LocalizationResult& result) const {
-  const BandQuery query(scan, params.search_cost);
+  const BandQuery query(scan, params.search_cost, params.search_metric);
   const RangeScan searched(query.beams, scan.sensor());
   const ScanCost cost(predictor, searched, params.search_cost);
   const PoseRefiner refiner(predictor, searched, params.refinement);
+  const auto cost_at = [&](const TPose2D& pose) {
+    return params.search_metric == SearchMetric::polar ? cost.polarDistance(pose) : cost.mean(pose);
+  };
   const CertifiedSearchResult found = searchCells(
       *cells, query, prior, scan.sensor(),
       [&](const TPose2D& pose) {
-        return std::min(cost.mean(pose), cost.mean(refiner.refine(pose).pose_map_beams));
+        return std::min(cost_at(pose), cost_at(refiner.refine(pose).pose_map_beams));
       },
       params.certified);
   result.statistics.positions = cells->nodes(0).size();

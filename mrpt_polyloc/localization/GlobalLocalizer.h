@@ -40,6 +40,8 @@ struct GlobalLocalizerParams {
   /// The certified search's cost: wider truncations, by which wrong poses stand out more, so that
   /// bounds exclude more.
   RobustCostParams search_cost{1.2, 2.0, 0.6, 0.3, RobustCostParams{}.none_share};
+  /// What the certified search minimises and certifies. Poses are ranked by `cost` in any case.
+  SearchMetric search_metric = SearchMetric::robust;
   CertifiedSearchParams certified;
   SignatureCosts signature;
   PyramidSearchParams search;

@@ -1,6 +1,7 @@
 #include <mrpt_polyloc/localization/ScanCost.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 
@@ -44,6 +45,20 @@ double ScanCost::mean(const mrpt::math::TPose2D& pose_map_beams) const {
   const std::vector<float> costs = perBeam(pose_map_beams);
   if (costs.empty()) return 0.0;
   return std::accumulate(costs.begin(), costs.end(), 0.0) / static_cast<double>(costs.size());
+}
+
+double ScanCost::polarDistance(const mrpt::math::TPose2D& pose_map_beams) const {
+  PredictedRanges predicted;
+  predict(pose_map_beams, predicted);
+  double sum = 0.0;
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < beams_.size(); ++i) {
+    if (beams_[i].kind != BeamKind::hit) continue;
+    const double off = static_cast<double>(predicted.wall[i]) - beams_[i].range;
+    sum += off * off;
+    ++hits;
+  }
+  return hits > 0 ? std::sqrt(sum / static_cast<double>(hits)) : 0.0;
 }
 
 }  // namespace mrpt_polyloc

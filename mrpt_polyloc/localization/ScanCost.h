@@ -30,6 +30,10 @@ class ScanCost {
   /// The mean over the beams [m]; 0 if there are none.
   double mean(const mrpt::math::TPose2D& pose_map_beams) const;
 
+  /// The paper's polar coordinate metric, sampled at the hits: the root of the mean squared
+  /// difference between their ranges and those to the first walls [m]; 0 if there are none.
+  double polarDistance(const mrpt::math::TPose2D& pose_map_beams) const;
+
   /// The cost of each beam [m].
   std::vector<float> perBeam(const mrpt::math::TPose2D& pose_map_beams) const;
 

@@ -5,7 +5,7 @@
 namespace mrpt_polyloc {
 namespace {
 
-using lanes::Bytes, lanes::Words;
+using lanes::Bytes, lanes::Words, lanes::Quads;
 using lanes::load, lanes::lower, lanes::raise, lanes::takeExcess, lanes::blend;
 
 constexpr std::size_t kLanes = BandQuery::kLanes;
@@ -13,23 +13,44 @@ static_assert(kLanes == lanes::kBytes && CellTree::kStride == BandQuery::kVector
 /// The entries of the last vector that still are bins; the rest of an array repeats its begin.
 constexpr lanes::FirstLanes<std::uint8_t, kBandBins % kLanes> kLast;
 
-/// Sums of bytes side by side: in bytes where the caps allow that, else in words.
-template <bool is_wide>
+enum class Summation {
+  bytes,   ///< of costs whose caps allow that
+  words,   ///< of any costs
+  squares  ///< of the costs' squares
+};
+
+/// Sums side by side.
+template <Summation>
 struct Sums;
 template <>
-struct Sums<false> {
-  Bytes bytes{};
-  POLYLOC_LANES void add(const Bytes& costs) { bytes += costs; }
-  POLYLOC_LANES unsigned total() const { return lanes::sumOf(bytes); }
+struct Sums<Summation::bytes> {
+  Bytes sums{};
+  POLYLOC_LANES void add(const Bytes& costs) { sums += costs; }
 };
 template <>
-struct Sums<true> {
-  Words pairs{};
+struct Sums<Summation::words> {
+  Words sums{};
   POLYLOC_LANES void add(const Bytes& costs) {
-    const Words more = reinterpret_cast<const Words&>(costs);
-    pairs += (more & 0xFF) + (more >> 8);
+    Words pairs;
+    load(&costs, pairs);
+    sums += (pairs & 0xFF) + (pairs >> 8);
   }
-  POLYLOC_LANES unsigned total() const { return lanes::sumOf(pairs); }
+};
+template <>
+struct Sums<Summation::squares> {
+  Quads sums{};
+  POLYLOC_LANES void add(const Bytes& costs) {
+    Words pairs;
+    load(&costs, pairs);
+    addSquares(pairs & 0xFF);
+    addSquares(pairs >> 8);
+  }
+  POLYLOC_LANES void addSquares(const Words& costs) {
+    const Words squares = costs * costs;
+    Quads pairs;
+    load(&squares, pairs);
+    sums += (pairs & 0xFFFF) + (pairs >> 16);
+  }
 };
 
 /// The bands of some bins.
@@ -86,7 +107,7 @@ POLYLOC_LANES void costsOf(const Bins& bins, const BandQuery& query, const BandQ
   costs = falls_short + beyond + in_gap;
 }
 
-template <bool has_open, bool is_in_phase, bool has_no_returns, bool is_wide>
+template <bool has_open, bool is_in_phase, bool has_no_returns, Summation summation>
 POLYLOC_LANES void boundAll(const CellTree::Bands& bands, const BandQuery& query,
                             const std::uint32_t* headings, std::size_t count, unsigned* bounds) {
   const BandQuery::Scaled& scan = query.scaled[bands.scale];
@@ -95,7 +116,7 @@ POLYLOC_LANES void boundAll(const CellTree::Bands& bands, const BandQuery& query
     loadBins<is_in_phase>(bands, v * kLanes, bins[v]);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    Sums<is_wide> sums;
+    Sums<summation> sums;
     for (std::size_t v = 0; v < BandQuery::kVectors; ++v) {
       const std::size_t rotated = v * kLanes + kBandBins - headings[i];
       if (!query.informs_from[rotated]) continue;
@@ -108,7 +129,8 @@ POLYLOC_LANES void boundAll(const CellTree::Bands& bands, const BandQuery& query
       }
       sums.add(costs);
     }
-    bounds[i] = sums.total() << bands.scale;
+    bounds[i] = lanes::sumOf(sums.sums)
+                << (summation == Summation::squares ? 2 * bands.scale : bands.scale);
   }
 }
 
@@ -116,12 +138,15 @@ template <bool has_open, bool is_in_phase>
 POLYLOC_LANES void chooseByBeams(const CellTree::Bands& bands, const BandQuery& query,
                                  const std::uint32_t* headings, std::size_t count,
                                  unsigned* bounds) {
-  if (query.has_wide_caps) {
-    boundAll<has_open, is_in_phase, true, true>(bands, query, headings, count, bounds);
+  constexpr auto bytes = Summation::bytes, words = Summation::words, squares = Summation::squares;
+  if (query.metric == SearchMetric::polar) {
+    boundAll<has_open, is_in_phase, false, squares>(bands, query, headings, count, bounds);
+  } else if (query.has_wide_caps) {
+    boundAll<has_open, is_in_phase, true, words>(bands, query, headings, count, bounds);
   } else if (query.has_no_returns) {
-    boundAll<has_open, is_in_phase, true, false>(bands, query, headings, count, bounds);
+    boundAll<has_open, is_in_phase, true, bytes>(bands, query, headings, count, bounds);
   } else {
-    boundAll<has_open, is_in_phase, false, false>(bands, query, headings, count, bounds);
+    boundAll<has_open, is_in_phase, false, bytes>(bands, query, headings, count, bounds);
   }
 }
 

@@ -2,6 +2,9 @@
 #include <mrpt_polyloc/localization/BandQuery.h>
 #include <mrpt_polyloc/localization/lanes.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace mrpt_polyloc {
 namespace {
 
@@ -53,13 +56,33 @@ POLYLOC_LANES unsigned sumCosts(const CellTree::View& view, const BandQuery& que
   return lanes::sumOf(sums);
 }
 
+/// Squares of differences to what the bin shows.
+double sumSquares(const CellTree::View& view, const BandQuery& query, std::size_t heading) {
+  double sum = 0.0;
+  for (std::size_t b = 0; b < kBandBins; ++b) {
+    const std::size_t rotated = b + kBandBins - heading;
+    if (query.long_view[rotated] == 0) continue;  // no beam
+    const std::size_t last = query.is_in_phase ? b : b + 1;
+    const auto [near, far] = std::minmax(view.wall[b], view.wall[last]);
+    const double z = query.long_view[rotated];
+    const double off = std::max({near - z, z - far, 0.0});
+    sum += off * off;
+  }
+  return sum;
+}
+
 }  // namespace
 
 POLYLOC_HOT_LOOP
 float viewCost(const CellTree::View& view, const BandQuery& query, std::size_t heading) {
+  const auto beams = static_cast<double>(query.beams.size());
+  if (query.metric == SearchMetric::polar) {
+    return static_cast<float>(std::sqrt(sumSquares(view, query, heading) / beams) *
+                              CellTree::kViewUnit);
+  }
   const unsigned sum = query.is_in_phase ? sumCosts<true>(view, query, heading)
                                          : sumCosts<false>(view, query, heading);
-  return static_cast<float>(sum * CellTree::kViewUnit / static_cast<double>(query.beams.size()));
+  return static_cast<float>(sum * CellTree::kViewUnit / beams);
 }
 
 }  // namespace mrpt_polyloc

@@ -21,24 +21,33 @@ using mrpt::math::TPose2D;
 /// The search cost, by rays cast against every edge in double.
 class BruteForceCost {
  public:
-  BruteForceCost(const PolygonMap& map, const RangeScan& scan, const RobustCostParams& params)
-      : rays_(map), beams_(BandQuery(scan, params).beams), cost_(params) {}
+  BruteForceCost(const PolygonMap& map, const RangeScan& scan, const GlobalLocalizerParams& params)
+      : rays_(map),
+        beams_(BandQuery(scan, params.search_cost, params.search_metric).beams),
+        cost_(params.search_cost),
+        metric_(params.search_metric) {}
 
   double operator()(const TPose2D& pose_map_beams) const {
     double sum = 0.0;
     for (const Beam& beam : beams_) {
       const RayHit hit =
           rays_.cast({pose_map_beams.x, pose_map_beams.y}, pose_map_beams.phi + beam.bearing);
+      if (metric_ == SearchMetric::polar) {
+        sum += (hit.wall - beam.range) * (hit.wall - beam.range);
+        continue;
+      }
       sum += static_cast<double>(
           cost_(beam, static_cast<float>(hit.wall), static_cast<float>(hit.open)));
     }
-    return sum / static_cast<double>(beams_.size());
+    const double mean = sum / static_cast<double>(beams_.size());
+    return metric_ == SearchMetric::polar ? std::sqrt(mean) : mean;
   }
 
  private:
   BruteForceRays rays_;
   std::vector<Beam> beams_;
   RobustCost cost_;
+  SearchMetric metric_;
 };
 
 bool holds(const PoseRegion& region, const TPose2D& pose) {
@@ -171,7 +180,7 @@ TEST(Certificate, NoPoseOutsideTheRegionsCostsLess) {
       ASSERT_TRUE(result.certificate);
       EXPECT_TRUE(result.certificate->is_complete);
       EXPECT_EQ(result.certificate->regions, result.regions.size());
-      const BruteForceCost cost(map, scan, params.search_cost);
+      const BruteForceCost cost(map, scan, params);
       Adversary adversary(map, result, cost, random);
       adversary.search(300, 6, 60);
       adversary.climb(scan.beamFrameFromRobot(truth), 60);
@@ -187,6 +196,34 @@ TEST(Certificate, NoPoseOutsideTheRegionsCostsLess) {
   std::cout << maps << " maps, " << scans << " scans, " << all.poses << " poses, of which "
             << all.below << " cost at most what was certified\n";
   EXPECT_GT(all.below, 1000U);  // else nothing was tested
+}
+
+TEST(Certificate, HoldsForThePolarMetric) {
+  std::mt19937 random(16);
+  Attempt all;
+  for (std::uint32_t seed = 0; seed < 8; ++seed) {
+    SCOPED_TRACE("map " + std::to_string(seed));
+    const PolygonMap map = floorPlan(randomParams(random), seed);
+    GlobalLocalizerParams params = withRegions();
+    params.search_metric = SearchMetric::polar;
+    const GlobalLocalizer localizer(map, params);
+    for (const ScanOptions& options : kindsOfScans(seed)) {
+      const TPoint2D place = randomFreePoints(map, 1, random).front();
+      const TPose2D truth{place.x, place.y, std::uniform_real_distribution<>(-kPi, kPi)(random)};
+      const RangeScan scan = simulatedScan(map, truth, options);
+      const LocalizationResult result = localizer.localize(scan);
+      if (result.status == LocalizationStatus::too_few_beams) continue;
+      ASSERT_TRUE(result.certificate && result.certificate->is_complete);
+      const BruteForceCost cost(map, scan, params);
+      Adversary adversary(map, result, cost, random);
+      adversary.search(200, 6, 60);
+      adversary.climb(scan.beamFrameFromRobot(truth), 60);
+      EXPECT_EQ(adversary.tally.outside, 0U)
+          << "of " << adversary.tally.below << ", by " << adversary.tally.worst << " m";
+      all.below += adversary.tally.below;
+    }
+  }
+  EXPECT_GT(all.below, 300U);
 }
 
 TEST(Certificate, CoversThePoseOfTheScanAndLeavesOutMostOfTheMap) {
@@ -228,7 +265,7 @@ TEST(Certificate, HoldsUnderAPrior) {
     const LocalizationResult bound = localizer.localize(scan, prior);
     ASSERT_TRUE(free.certificate && bound.certificate);
     EXPECT_LT(bound.statistics.evaluated, free.statistics.evaluated);
-    const BruteForceCost cost(map, scan, params.search_cost);
+    const BruteForceCost cost(map, scan, params);
     Adversary adversary(map, bound, cost, random);
     for (int k = 0; k < 400; ++k) {
       std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -304,7 +341,7 @@ TEST(Certificate, SaysHowFarABudgetReached) {
   EXPECT_FALSE(cut.certificate->is_complete);
   EXPECT_LT(cut.certificate->cost, complete.certificate->cost);
   EXPECT_LT(cut.statistics.evaluated, complete.statistics.evaluated);
-  const BruteForceCost cost(map, scan, params.search_cost);
+  const BruteForceCost cost(map, scan, params);
   Adversary adversary(map, cut, cost, random);
   adversary.search(200, 6, 60);
   EXPECT_EQ(adversary.tally.outside, 0U) << adversary.tally.worst;
