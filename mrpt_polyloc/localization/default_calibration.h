@@ -14,13 +14,13 @@
 ///   locdemo (37 scans)
 namespace mrpt_polyloc::default_calibration {
 
-constexpr double kMatchIntercept = -14.84391;
-constexpr double kLeastMatchProbability = 0.01519767;
-constexpr double kWeightDecay = 4.612698;
-constexpr double kUniqueProbability = 0.7155625;
-constexpr double kPositionFactor = 1.786568;
-constexpr double kHeadingFactor = 1.18257;
+constexpr double kMatchIntercept = -15.44549;
+constexpr double kLeastMatchProbability = 0.01652169;
+constexpr double kWeightDecay = 4.840728;
+constexpr double kUniqueProbability = 0.6227145;
+constexpr double kPositionFactor = 1.780324;
+constexpr double kHeadingFactor = 1.173026;
 /// explained, lead, heading, seen
-constexpr std::array<double, 4> kMatchWeights = {6.345567, 11.99969, -1.163249, 3.569302};
+constexpr std::array<double, 4> kMatchWeights = {6.54571, 11.23423, -1.255878, 3.657063};
 
 }  // namespace mrpt_polyloc::default_calibration
