@@ -30,11 +30,11 @@ namespace {
 constexpr std::uint64_t kMostThreads = 1024;
 constexpr std::uint64_t kMostHypotheses = 1'000'000;
 
-constexpr const char* kMethods = "certified, exhaustive, cells, exact";
+constexpr const char* kMethods = "certified, cells, exact";
 
 /// \throws UsageError if the method is unknown.
 void checkMethod(const std::string& method) {
-  for (const char* known : {"certified", "exhaustive", "cells", "exact"}) {
+  for (const char* known : {"certified", "cells", "exact"}) {
     if (method == known) return;
   }
   throw UsageError("--method: unknown method '" + method + "'; there is: " + kMethods);
@@ -81,8 +81,6 @@ Calibration calibrationOf(const SearchOptions& search) {
 
 ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
   GlobalLocalizerParams params;
-  params.method =
-      search.method == "exhaustive" ? SearchMethod::exhaustive : SearchMethod::certified;
   params.max_hypotheses = search.max_hypotheses;
   params.threads = static_cast<int>(search.threads);
   params.certified.time_budget_ms = search.time_budget_ms;
@@ -153,8 +151,8 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
             checkMethod(method);
             search.method = method;
           },
-          "How to search: certified [default], exhaustive (a lattice of poses), cells (the nearest "
-          "visibility cells), exact (a polygon seen without any noise)")
+          "How to search: certified [default], cells (the nearest visibility cells), exact (a "
+          "polygon seen without any noise)")
       ->type_name("NAME");
   addNumber(
       options, "--range", [&search](double range) { search.cell_range = range; },

@@ -5,35 +5,44 @@
 #include <mrpt_polyloc/localization/CellTree.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/ScanCost.h>
-#include <mrpt_polyloc/localization/SignaturePyramid.h>
 #include <mrpt_polyloc/localization/Stopwatch.h>
 #include <mrpt_polyloc/localization/candidate_ranking.h>
 #include <mrpt_polyloc/localization/search_index_file.h>
-#include <mrpt_polyloc/localization/search_positions.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 
 #include <algorithm>
-#include <optional>
-#include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace mrpt_polyloc {
 namespace {
 
 using mrpt::math::TPose2D;
 
+/// What a search could not exclude, as polygons and headings.
+std::vector<PoseRegion> regionsOf(const CertifiedSearchResult& found, const CellTree& cells,
+                                  const BandQuery& query) {
+  std::vector<PoseRegion> regions;
+  for (const RemainingCell& remaining : found.regions) {
+    const TPoint2D* polygon = cells.polygon(remaining.cell);
+    const double first = remaining.heading, window = CellTree::kWindow[0];
+    regions.push_back({{polygon, polygon + cells.polygonSize(remaining.cell)},
+                       query.heading(first),
+                       query.heading(first + window),
+                       static_cast<double>(remaining.bound)});
+  }
+  return regions;
+}
+
 }  // namespace
 
 void GlobalLocalizerParams::check() const {
   requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e6);
   requireInRange("threads", threads, 0.0, 1024.0);
-  requireInRange("spacing", spacing, 0.01, 10.0);
   requireInRange("cell_size", cell_size, 0.01, 10.0);
   cost.check();
   search_cost.check();
   certified.check();
-  signature.check();
-  search.check();
   refinement.check();
   hypotheses.check();
 }
@@ -43,27 +52,18 @@ struct GlobalLocalizer::Impl {
       : params(parameters),
         map(std::move(polygon_map)),
         triangulation(map),
-        predictor(triangulation,
-                  params.method == SearchMethod::certified ? 2.0 * params.cell_size
-                                                           : RangePredictor::kCellSize,
-                  params.threads) {
-    if (params.method == SearchMethod::certified) {
-      cells.emplace(triangulation, predictor, CellTreeParams{params.cell_size, params.threads});
-    } else {
-      pyramid.emplace(predictor, searchPositions(triangulation, params.spacing),
-                      triangulation.box().min, params.spacing, params.threads);
-    }
-    build_seconds = watch.seconds();
-  }
+        predictor(triangulation, 2.0 * params.cell_size, params.threads),
+        cells(triangulation, predictor, {params.cell_size, params.threads}),
+        build_seconds(watch.seconds()) {}
 
   Impl(PolygonMap polygon_map, SearchIndex index, const GlobalLocalizerParams& parameters)
       : params(parameters),
         map(std::move(polygon_map)),
         triangulation(map),
         predictor(triangulation, std::move(index.edges)),
-        cells(std::in_place, std::move(index.cells)),
+        cells(std::move(index.cells)),
         build_seconds(watch.seconds()) {
-    if (predictor.index().lists().cell_size != 2.0 * cells->cellSize()) {
+    if (predictor.index().lists().cell_size != 2.0 * cells.cellSize()) {
       throw InvalidMapError("index: its parts are not of one size");
     }
   }
@@ -71,37 +71,18 @@ struct GlobalLocalizer::Impl {
   /// The poses to be refined, and what is known of the others.
   std::vector<TPose2D> search(const RangeScan& scan, const PosePrior& prior,
                               LocalizationResult& result) const;
-  std::vector<TPose2D> searchCertified(const RangeScan& scan, const PosePrior& prior,
-                                       LocalizationResult& result) const;
 
   Stopwatch watch;
   GlobalLocalizerParams params;
   PolygonMap map;
   Triangulation triangulation;
   RangePredictor predictor;
-  std::optional<CellTree> cells;            ///< certified
-  std::optional<SignaturePyramid> pyramid;  ///< exhaustive
-  double build_seconds = 0.0;
+  CellTree cells;
+  double build_seconds;
 };
 
 std::vector<TPose2D> GlobalLocalizer::Impl::search(const RangeScan& scan, const PosePrior& prior,
                                                    LocalizationResult& result) const {
-  if (cells) return searchCertified(scan, prior, result);
-  const SignatureQuery query(scan, params.signature, params.cost.none_share);
-  const PyramidSearchResult found =
-      searchPyramid(*pyramid, query, prior, scan.sensor(), params.search);
-  result.statistics.positions = pyramid->blocks(0).size();
-  result.statistics.evaluated = found.evaluated;
-  std::vector<TPose2D> poses;
-  for (const PyramidCandidate& candidate : found.candidates) {
-    poses.push_back(candidate.pose_map_beams);
-  }
-  return poses;
-}
-
-std::vector<TPose2D> GlobalLocalizer::Impl::searchCertified(const RangeScan& scan,
-                                                            const PosePrior& prior,
-                                                            LocalizationResult& result) const {
   const BandQuery query(scan, params.search_cost, params.search_metric);
   const RangeScan searched(query.beams, scan.sensor());
   const ScanCost cost(predictor, searched, params.search_cost);
@@ -110,24 +91,15 @@ std::vector<TPose2D> GlobalLocalizer::Impl::searchCertified(const RangeScan& sca
     return params.search_metric == SearchMetric::polar ? cost.polarDistance(pose) : cost.mean(pose);
   };
   const CertifiedSearchResult found = searchCells(
-      *cells, query, prior, scan.sensor(),
+      cells, query, prior, scan.sensor(),
       [&](const TPose2D& pose) {
         return std::min(cost_at(pose), cost_at(refiner.refine(pose).pose_map_beams));
       },
       params.certified);
-  result.statistics.positions = cells->nodes(0).size();
+  result.statistics.positions = cells.nodes(0).size();
   result.statistics.evaluated = found.evaluated;
   result.certificate = Certificate{found.certified_cost, found.is_complete, found.regions.size()};
-  if (params.keep_regions) {
-    for (const RemainingCell& remaining : found.regions) {
-      const TPoint2D* polygon = cells->polygon(remaining.cell);
-      const double first = remaining.heading, window = CellTree::kWindow[0];
-      result.regions.push_back({{polygon, polygon + cells->polygonSize(remaining.cell)},
-                                query.heading(first),
-                                query.heading(first + window),
-                                static_cast<double>(remaining.bound)});
-    }
-  }
+  if (params.keep_regions) result.regions = regionsOf(found, cells, query);
   std::vector<TPose2D> poses;
   for (const PoseCandidate& candidate : found.candidates) poses.push_back(candidate.pose_map_beams);
   return poses;
@@ -139,7 +111,6 @@ GlobalLocalizer::GlobalLocalizer(PolygonMap map, GlobalLocalizerParams params) {
 }
 GlobalLocalizer::GlobalLocalizer(PolygonMap map, const std::string& index, const std::string& file,
                                  GlobalLocalizerParams params) {
-  params.method = SearchMethod::certified;
   params.check();
   SearchIndex parsed = parseIndex(index, file, map.hash());
   try {
@@ -157,12 +128,10 @@ const PolygonMap& GlobalLocalizer::map() const {
   return impl_->map;
 }
 std::size_t GlobalLocalizer::indexBytes() const {
-  return (impl_->cells ? impl_->cells->bytes() : impl_->pyramid->bytes()) +
-         impl_->predictor.index().bytes();
+  return impl_->cells.bytes() + impl_->predictor.index().bytes();
 }
 std::string GlobalLocalizer::serializedIndex() const {
-  if (!impl_->cells) throw std::logic_error("only the certified method's index can be kept");
-  return serializeIndex(impl_->predictor.index().lists(), impl_->cells->data(), impl_->map.hash());
+  return serializeIndex(impl_->predictor.index().lists(), impl_->cells.data(), impl_->map.hash());
 }
 double GlobalLocalizer::indexBuildSeconds() const {
   return impl_->build_seconds;

@@ -4,10 +4,9 @@
 #include <mrpt_polyloc/localization/CertifiedSearch.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 #include <mrpt_polyloc/localization/PoseRefiner.h>
-#include <mrpt_polyloc/localization/PyramidSearch.h>
 #include <mrpt_polyloc/localization/RangeScan.h>
 #include <mrpt_polyloc/localization/RobustCost.h>
-#include <mrpt_polyloc/localization/SignatureQuery.h>
+#include <mrpt_polyloc/localization/SearchMetric.h>
 #include <mrpt_polyloc/localization/hypotheses.h>
 
 #include <cstddef>
@@ -16,35 +15,23 @@
 
 namespace mrpt_polyloc {
 
-/// How candidates are found.
-enum class SearchMethod {
-  certified,  ///< branch and bound over cells: what is left out is proven to cost more
-  exhaustive  ///< all poses of a lattice, by coarse codes
-};
-
 struct GlobalLocalizerParams {
-  SearchMethod method = SearchMethod::certified;
   std::size_t max_hypotheses = 20;  ///< at most so many are returned
   int threads = 0;                  ///< for building the index; 0: all cores
-  /// Certified: side of the finest cells [m]. Smaller ones are bounded more tightly; time of
-  /// building and memory grow with the inverse square.
+  /// Side of the finest cells [m]. Smaller ones are bounded more tightly; time of building and
+  /// memory grow with the inverse square.
   double cell_size = 0.25;
-  /// Certified: whether the result lists what could not be excluded.
+  /// Whether the result lists what could not be excluded.
   bool keep_regions = false;
-  /// Exhaustive: distance of the positions that are compared [m]. Refinement finds the optimum from
-  /// half of it; time and memory grow with its inverse square.
-  double spacing = 0.1;
   /// Scans with fewer hits are not searched for: so few fit almost everywhere.
   std::size_t least_hits = 15;
   RobustCostParams cost;  ///< by which poses are ranked
-  /// The certified search's cost: wider truncations, by which wrong poses stand out more, so that
-  /// bounds exclude more.
+  /// The search's cost: wider truncations, by which wrong poses stand out more, so that bounds
+  /// exclude more.
   RobustCostParams search_cost{1.2, 2.0, 0.6, 0.3, RobustCostParams{}.none_share};
-  /// What the certified search minimises and certifies. Poses are ranked by `cost` in any case.
+  /// What the search minimises and certifies. Poses are ranked by `cost` in any case.
   SearchMetric search_metric = SearchMetric::robust;
   CertifiedSearchParams certified;
-  SignatureCosts signature;
-  PyramidSearchParams search;
   PoseRefinerParams refinement;
   HypothesisParams hypotheses;
 
@@ -59,7 +46,7 @@ class GlobalLocalizer {
  public:
   /// \throws InvalidParamsError
   explicit GlobalLocalizer(PolygonMap map, GlobalLocalizerParams params = {});
-  /// With an index made before by the certified method, `params.cell_size` then being the index's.
+  /// With an index made before, `params.cell_size` then being the index's.
   /// \param file its name, for messages
   /// \throws FormatError if the content is not the index of this map, see parseIndex()
   GlobalLocalizer(PolygonMap map, const std::string& index, const std::string& file,
@@ -74,7 +61,7 @@ class GlobalLocalizer {
 
   const PolygonMap& map() const;
   std::size_t indexBytes() const;  ///< memory of the search index
-  /// The index of the certified method, to be kept in a file. \throws std::logic_error for others
+  /// The search index, to be kept in a file.
   std::string serializedIndex() const;
   double indexBuildSeconds() const;  ///< wall time that building it took
 

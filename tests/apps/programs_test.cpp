@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
         localize("range_alone", {"--range", "5"}, "it needs --method cells"),
         localize("range_zero", {"--method", "cells", "--range", "0"}, "'0'"),
         localize("unknown_method", {"--method", "best"}, "unknown method 'best'"),
-        localize("index", {"--method", "exhaustive", "--index", "a.idx"},
+        localize("index", {"--method", "cells", "--index", "a.idx"},
                  "--index needs --method certified"),
         localize("calibration_exact", {"--method", "exact", "--calibration", "c.json"},
                  "does not go with --method exact"),

@@ -77,12 +77,9 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-void searchOnPlan(benchmark::State& state, double area, const Condition& condition,
-                  SearchMethod method) {
+void searchOnPlan(benchmark::State& state, double area, const Condition& condition) {
   const PolygonMap map = planOfArea(area);
-  GlobalLocalizerParams params;
-  params.method = method;
-  const GlobalLocalizer localizer(map, params);
+  const GlobalLocalizer localizer(map);
   const test::BruteForceRays rays(map);
   std::mt19937 random(1);
   std::size_t right = 0;
@@ -115,13 +112,11 @@ void searchOnPlan(benchmark::State& state, double area, const Condition& conditi
   state.counters["right"] = static_cast<double>(right) / n;
 }
 
-void add(int area, const Condition& condition, SearchMethod method) {
-  const std::string name = std::string("search/") + std::to_string(area) + "m2/" + condition.name +
-                           (method == SearchMethod::certified ? "" : "/exhaustive");
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [area, condition, method](benchmark::State& state) {
-                                 searchOnPlan(state, area, condition, method);
-                               })
+void add(int area, const Condition& condition) {
+  const std::string name = "search/" + std::to_string(area) + "m2/" + condition.name;
+  benchmark::RegisterBenchmark(
+      name.c_str(),
+      [area, condition](benchmark::State& state) { searchOnPlan(state, area, condition); })
       ->Unit(benchmark::kMillisecond)
       ->Iterations(40);
 }
@@ -133,10 +128,7 @@ const int registered = [] {
                                              {"10occluders", 0.0, 10},
                                              {"10%short+compass", 0.1, 0, true}};
   for (const int area : {100, 400, 1600, 6400, 10000}) {
-    for (const Condition& condition : conditions) add(area, condition, SearchMethod::certified);
-  }
-  for (const int area : {100, 400, 1600}) {
-    for (const Condition& condition : conditions) add(area, condition, SearchMethod::exhaustive);
+    for (const Condition& condition : conditions) add(area, condition);
   }
   return 0;
 }();

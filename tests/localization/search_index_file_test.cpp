@@ -85,11 +85,5 @@ TEST_F(SearchIndexFile, RefusesAnyDamage) {
   }
 }
 
-TEST_F(SearchIndexFile, IsOfTheCertifiedMethodAlone) {
-  GlobalLocalizerParams params;
-  params.method = SearchMethod::exhaustive;
-  EXPECT_THROW(GlobalLocalizer(asymmetricRoom(), params).serializedIndex(), std::logic_error);
-}
-
 }  // namespace
 }  // namespace mrpt_polyloc::test
