@@ -40,6 +40,9 @@ void checkMethod(const std::string& method) {
   throw UsageError("--method: unknown method '" + method + "'; there is: " + kMethods);
 }
 
+constexpr const char* kRobust = "robust";
+constexpr const char* kPolar = "polar";
+
 /// \throws UsageError for options that do not go with the method.
 void checkTogether(const SearchOptions& search) {
   if (search.cell_range && search.method != "cells") {
@@ -51,6 +54,9 @@ void checkTogether(const SearchOptions& search) {
   if (search.method == "certified") return;
   if (!search.index.empty()) throw UsageError("--index needs --method certified");
   if (search.time_budget_ms > 0.0) throw UsageError("--time-budget needs --method certified");
+  if (search.search_metric != kRobust) {
+    throw UsageError("--search-metric needs --method certified");
+  }
 }
 
 /// The content of a file; none if there is no such file. \throws FormatError if it cannot be read
@@ -84,6 +90,7 @@ ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
   params.max_hypotheses = search.max_hypotheses;
   params.threads = static_cast<int>(search.threads);
   params.certified.time_budget_ms = search.time_budget_ms;
+  if (search.search_metric == kPolar) params.search_metric = SearchMetric::polar;
   params.hypotheses.calibration = calibrationOf(search);
   // Shared, for a std::function must be copyable.
   const auto localizer = makeShared(std::move(map), search.index, params);
@@ -180,6 +187,19 @@ void addCertifiedOptions(CLI::App& options, SearchOptions& search) {
   addNumber(options, "--time-budget", search.time_budget_ms, {0.0, 1e9, true},
             "Most time for the certified search of a scan; what it then has proven is less")
       ->type_name("MS");
+  options
+      .add_option_function<std::string>(
+          "--search-metric",
+          [&search](const std::string& metric) {
+            if (metric != kRobust && metric != kPolar) {
+              throw UsageError("--search-metric: unknown metric '" + metric +
+                               "'; there is: robust, polar");
+            }
+            search.search_metric = metric;
+          },
+          "What the certified search minimises: robust [default], or polar, the polar coordinate "
+          "metric, for scans without clutter")
+      ->type_name("NAME");
 }
 
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::size_t scans) {

@@ -24,6 +24,7 @@ struct SearchOptions {
   std::optional<double> cell_range;  ///< of --method cells [m]
   std::string index;                 ///< file to keep the certified search's index in; empty: none
   double time_budget_ms = 0.0;       ///< of the certified search; 0: none
+  std::string search_metric = "robust";  ///< of the certified search
   std::uint64_t max_hypotheses = 20;
   /// Threads for the index, and for scans at once; 0 (not given): all cores for the index, and one
   /// scan after the other, so that the times of a scan mean something.
@@ -44,7 +45,8 @@ struct ScanLocalizer {
   std::size_t index_bytes = 0;  ///< memory of what was prepared
 };
 
-/// Adds --index and --time-budget, which are usage errors with another method than certified.
+/// Adds --index, --time-budget and --search-metric, which are usage errors with another method than
+/// certified.
 void addCertifiedOptions(CLI::App& options, SearchOptions& search);
 
 /// Prepares the search of `search.method` in a map, for so many scans: for `exact` with the map's

@@ -83,7 +83,7 @@ std::string overBudget(const CellEstimate& estimate, std::size_t budget) {
   std::snprintf(text, sizeof text,
                 "%zu critical segments with %zu crossings make up to %zu visibility cells, more "
                 "than the budget of %zu; they would take about %.0f MB. Limit the range of the "
-                "cells, or use the exhaustive search, which needs none",
+                "cells, or use the certified search, which needs none",
                 estimate.windows, estimate.crossings, estimate.cells(), budget,
                 estimate.megabytes());
   return text;
