@@ -133,18 +133,16 @@ void BandQuery::takeViewRanges(const ChosenBeams& chosen, const RobustCostParams
   };
   constexpr double kGreatestCap = 65535 / 6;  // sums of words must not overflow
   cap_short_view = in_units(cost.tau_short, kGreatestCap);
+  cap_long_view = in_units(cost.tau_long, kGreatestCap);
   cap_open_view = in_units(cost.tau_open, kGreatestCap);
+  cap_none_view = in_units(cost.tau_none, kGreatestCap);
   for (std::size_t i = 0; i < kRoom; ++i) {
     const Beam* beam = chosen[i % kBandBins];
     short_view[i] = 0xFFFF;
     if (beam == nullptr) continue;
-    if (beam->kind == BeamKind::hit) {
-      short_view[i] = long_view[i] = in_units(beam->range);
-      cap_long_view[i] = in_units(cost.tau_long, kGreatestCap);
-    } else {
-      long_view[i] = in_units(cost.none_share * beam->range);
-      cap_long_view[i] = in_units(cost.tau_none, kGreatestCap);
-    }
+    const bool is_hit = beam->kind == BeamKind::hit;
+    if (is_hit) short_view[i] = in_units(beam->range);
+    long_view[i] = in_units(is_hit ? beam->range : cost.none_share * beam->range);
   }
 }
 

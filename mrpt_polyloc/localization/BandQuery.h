@@ -49,10 +49,9 @@ struct BandQuery {
   };
   std::array<Scaled, RangeBytes::kScales> scaled;
   alignas(64) std::array<std::uint8_t, kRoom> no_return{};  ///< all bits, or none
-  /// The same in the units of CellTree::View; a beam's cap if it has passed a wall.
-  alignas(64) std::array<std::uint16_t, kRoom> short_view{}, long_view{}, cap_long_view{},
-      no_return_view{};
-  std::uint16_t cap_short_view = 0, cap_open_view = 0;
+  /// The same in the units of CellTree::View.
+  alignas(64) std::array<std::uint16_t, kRoom> short_view{}, long_view{}, no_return_view{};
+  std::uint16_t cap_short_view = 0, cap_long_view = 0, cap_open_view = 0, cap_none_view = 0;
   std::array<bool, kRoom> informs_from{};  ///< whether a vector from there on holds a beam
   SearchMetric metric;
   bool has_wide_caps = false;  ///< sums of bytes might overflow

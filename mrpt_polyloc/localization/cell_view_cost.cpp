@@ -8,21 +8,21 @@
 namespace mrpt_polyloc {
 namespace {
 
-using lanes::load, lanes::lower, lanes::raise, lanes::takeExcess;
+using lanes::load, lanes::lower, lanes::raise, lanes::takeExcess, lanes::blend;
 using lanes::Words;
 
 constexpr std::size_t kLanes = lanes::kBytes / sizeof(std::uint16_t);
 constexpr lanes::FirstLanes<std::uint16_t, kBandBins % kLanes> kLast;
 
 /// RobustCost, in integers.
-template <bool is_in_phase>
+template <bool is_in_phase, bool has_no_returns>
 POLYLOC_LANES unsigned sumCosts(const CellTree::View& view, const BandQuery& query,
                                 std::size_t heading) {
-  Words sums{};
+  Words sums{}, cap_long = Words{} + query.cap_long_view;
   for (std::size_t first = 0; first < kBandBins; first += kLanes) {
     const std::size_t rotated = first + kBandBins - heading;
     if (!query.informs_from[rotated]) continue;
-    Words near, wall, short_range, passed, cap_long, no_return;
+    Words near, wall, short_range, passed;
     load(view.near + first, near);
     load(view.wall + first, wall);
     if (!is_in_phase) {
@@ -34,11 +34,15 @@ POLYLOC_LANES unsigned sumCosts(const CellTree::View& view, const BandQuery& que
     }
     load(query.short_view.data() + rotated, short_range);
     load(query.long_view.data() + rotated, passed);
-    load(query.cap_long_view.data() + rotated, cap_long);
-    load(query.no_return_view.data() + rotated, no_return);
     takeExcess(passed, wall);
-    lower(passed, cap_long);
-    passed &= ~(no_return & (near < wall));  // past an open edge, nothing need return
+    Words cap = cap_long;
+    if (has_no_returns) {
+      Words no_return;
+      load(query.no_return_view.data() + rotated, no_return);
+      blend(no_return, Words{} + query.cap_none_view, cap);
+      cap &= ~(no_return & (near < wall));  // past an open edge, nothing need return
+    }
+    lower(passed, cap);
     Words beyond_open = wall;
     takeExcess(beyond_open, short_range);
     lower(beyond_open, Words{} + query.cap_open_view);
@@ -54,6 +58,13 @@ POLYLOC_LANES unsigned sumCosts(const CellTree::View& view, const BandQuery& que
     sums += costs;
   }
   return lanes::sumOf(sums);
+}
+
+template <bool has_no_returns>
+POLYLOC_LANES unsigned chooseByPhase(const CellTree::View& view, const BandQuery& query,
+                                     std::size_t heading) {
+  return query.is_in_phase ? sumCosts<true, has_no_returns>(view, query, heading)
+                           : sumCosts<false, has_no_returns>(view, query, heading);
 }
 
 /// Squares of differences to what the bin shows.
@@ -80,8 +91,8 @@ float viewCost(const CellTree::View& view, const BandQuery& query, std::size_t h
     return static_cast<float>(std::sqrt(sumSquares(view, query, heading) / beams) *
                               CellTree::kViewUnit);
   }
-  const unsigned sum = query.is_in_phase ? sumCosts<true>(view, query, heading)
-                                         : sumCosts<false>(view, query, heading);
+  const unsigned sum = query.has_no_returns ? chooseByPhase<true>(view, query, heading)
+                                            : chooseByPhase<false>(view, query, heading);
   return static_cast<float>(sum * CellTree::kViewUnit / beams);
 }
 
