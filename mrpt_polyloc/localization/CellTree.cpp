@@ -16,7 +16,6 @@
 #include <utility>
 
 namespace mrpt_polyloc {
-
 namespace {
 
 constexpr std::size_t kStride = CellTree::kStride;

@@ -307,7 +307,7 @@ TEST(Certificate, ABudgetTooSmallForAnythingStillGivesAnAnswer) {
 }
 
 TEST(Certificate, HoldsBeyondTheGreatestRange) {
-  // 600 m long: ranges beyond 508 m are told from shorter ones alone.
+  // 600 m long: ranges beyond 127 m are told from shorter ones alone.
   const PolygonMap map = mapOf(rectangle(0, 0, 600, 8));
   GlobalLocalizerParams params = withRegions();
   params.cell_size = 0.5;
