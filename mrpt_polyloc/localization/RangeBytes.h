@@ -16,6 +16,7 @@ struct RangeBytes {
   static constexpr std::size_t kScales = 5;
   static constexpr double kFinestUnit = 1.0 / 32;  ///< [m]
   static constexpr int kGreatest = 255;
+  static constexpr double kReach = kGreatest * kFinestUnit * (1U << (kScales - 1));  ///< [m]
 
   /// [m]: 1/32 to 1/2, so that bytes reach 8 to 127 m.
   static constexpr double unit(std::size_t scale) {

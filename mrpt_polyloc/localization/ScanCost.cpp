@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/localization/RangeBytes.h>
 #include <mrpt_polyloc/localization/ScanCost.h>
 
 #include <algorithm>
@@ -54,7 +55,8 @@ double ScanCost::polarDistance(const mrpt::math::TPose2D& pose_map_beams) const 
   std::size_t hits = 0;
   for (std::size_t i = 0; i < beams_.size(); ++i) {
     if (beams_[i].kind != BeamKind::hit) continue;
-    const double off = static_cast<double>(predicted.wall[i]) - beams_[i].range;
+    const double wall = std::min(static_cast<double>(predicted.wall[i]), RangeBytes::kReach);
+    const double off = wall - std::min(beams_[i].range, RangeBytes::kReach);
     sum += off * off;
     ++hits;
   }

@@ -31,7 +31,8 @@ class ScanCost {
   double mean(const mrpt::math::TPose2D& pose_map_beams) const;
 
   /// The paper's polar coordinate metric, sampled at the hits: the root of the mean squared
-  /// difference between their ranges and those to the first walls [m]; 0 if there are none.
+  /// difference between their ranges and those to the first walls [m]; 0 if there are none. Ranges
+  /// beyond RangeBytes::kReach count as that, also where no wall is met.
   double polarDistance(const mrpt::math::TPose2D& pose_map_beams) const;
 
   /// The cost of each beam [m].

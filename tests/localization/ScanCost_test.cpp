@@ -51,12 +51,35 @@ TEST(ScanCost, LeavesInvalidBeamsOutAndKeepsTheOrder) {
   EXPECT_NEAR(cost.mean({2, 2, 0}), 0.4 / 3, 1e-5);
 }
 
+TEST(ScanCost, PolarDistanceIsTheRootMeanSquareOverTheHits) {
+  const PolygonMap map = squareMap(4.0);
+  const RangePredictor predictor(Triangulation(map), RangePredictor::kCellSize, 1);
+  const RangeScan scan({{kPi / 2, 1.75, BeamKind::hit},
+                        {0.0, 2.5, BeamKind::hit},
+                        {kPi, 10.0, BeamKind::no_return},
+                        {-kPi / 2, 2.0, BeamKind::hit}});
+  const ScanCost cost(predictor, scan, {});
+  EXPECT_NEAR(cost.polarDistance({2, 2, 0}), std::sqrt((0.0625 + 0.25) / 3), 1e-5);
+}
+
+TEST(ScanCost, PolarDistanceStaysFiniteWhereNoWallIsMet) {
+  const PolygonMap map = withOpenEdges(squareMap(4.0), 1.0, 1);
+  const RangePredictor predictor(Triangulation(map), RangePredictor::kCellSize, 1);
+  const auto distance = [&](double range) {
+    return ScanCost(predictor, RangeScan({{0.0, range, BeamKind::hit}}), {})
+        .polarDistance({2, 2, 0});
+  };
+  EXPECT_NEAR(distance(2.0), 125.5, 1e-5);
+  EXPECT_EQ(distance(300.0), 0.0);  // both count as 127.5 m
+}
+
 TEST(ScanCost, OfNoBeamsIsNothing) {
   const PolygonMap map = squareMap(4.0);
   const RangePredictor predictor(Triangulation(map), RangePredictor::kCellSize, 1);
   const ScanCost cost(predictor, RangeScan({}), {});
   EXPECT_EQ(cost.beamCount(), 0U);
   EXPECT_EQ(cost.mean({2, 2, 0}), 0.0);
+  EXPECT_EQ(cost.polarDistance({2, 2, 0}), 0.0);
 }
 
 }  // namespace

@@ -33,7 +33,9 @@ class BruteForceCost {
       const RayHit hit =
           rays_.cast({pose_map_beams.x, pose_map_beams.y}, pose_map_beams.phi + beam.bearing);
       if (metric_ == SearchMetric::polar) {
-        sum += (hit.wall - beam.range) * (hit.wall - beam.range);
+        const double reach = 127.5;
+        const double off = std::min(hit.wall, reach) - std::min(beam.range, reach);
+        sum += off * off;
         continue;
       }
       sum += static_cast<double>(
