@@ -115,6 +115,15 @@ TEST_F(PolylocLocalize, MethodsAgreeOnTheFirstAnswer) {
   }
 }
 
+TEST_F(PolylocLocalize, ThePolarMetricSearchesElsewhereAmidClutter) {
+  simulate("sim", {"--short", "0.3"});
+  const Outcome robust = localize({}), polar = localize({"--search-metric", "polar"});
+  ASSERT_EQ(robust.code, 0) << robust.err;
+  ASSERT_EQ(polar.code, 0) << polar.err;
+  EXPECT_EQ(withoutTimes(localize({"--search-metric", "robust"}).out), withoutTimes(robust.out));
+  EXPECT_NE(withoutTimes(polar.out), withoutTimes(robust.out));
+}
+
 TEST_F(PolylocLocalize, FindsEveryScanOfAnAsymmetricRoom) {
   simulate("sim");
   const Outcome outcome = localize({});
