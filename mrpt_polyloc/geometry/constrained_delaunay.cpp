@@ -55,6 +55,7 @@ template <class Sort>
 std::vector<std::size_t> sorted(const std::vector<Point>& points, Sort&& sort) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
+  if (points.empty()) return order;  // a map without walls: CGAL would take its first point
   using Map = CGAL::Pointer_property_map<Point>::const_type;
   sort(order.begin(), order.end(),
        CGAL::Spatial_sort_traits_adapter_2<Kernel, Map>(CGAL::make_property_map(points)));
