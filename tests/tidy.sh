@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# tidy.sh [BUILD_DIR]: clang-tidy 14 with .clang-tidy over the library's core (all folders but
-# mrpt_bridge/ and evaluation/); needs BUILD_DIR/compile_commands.json (default build/). Not part of
+# tidy.sh [BUILD_DIR]: clang-tidy 14 with .clang-tidy over the library's core (all folders
+# before io/); needs BUILD_DIR/compile_commands.json (default build/). Not part of
 # the gate: see CONTRIBUTING.md. Exits non-zero on any finding.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -9,5 +9,5 @@ if [ ! -f "$build/compile_commands.json" ]; then
   echo "tidy.sh: no $build/compile_commands.json; run: cmake --preset gate" >&2
   exit 1
 fi
-find mrpt_polyloc/{geometry,visibility,polar,localization} -name '*.cpp' -print0 |
+find mrpt_polyloc/{base,geometry,visibility,polar,localization} -name '*.cpp' -print0 |
   xargs -0 -n 1 -P "$(nproc)" clang-tidy-14 -p "$build" --quiet

@@ -1,6 +1,6 @@
 #include "OutputFiles.h"
 
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/errors.h>
 
 #include <cerrno>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "map_input.h"
 
-#include <mrpt_polyloc/mrpt_bridge/map_files.h>
+#include <mrpt_polyloc/io/map_files.h>
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include "SvgCanvas.h"
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
-#include <mrpt_polyloc/localization/RangeScan.h>
+#include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <mrpt/math/TPose2D.h>
 

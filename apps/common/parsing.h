@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/evaluation/Summary.h>
-#include <mrpt_polyloc/localization/LocalizationResult.h>
+#include <mrpt_polyloc/localization/scan/PosePrior.h>
 
 #include <mrpt/math/TPoint2D.h>
 

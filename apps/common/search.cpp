@@ -4,12 +4,12 @@
 #include "Progress.h"
 #include "map_input.h"
 #include "view_polygons.h"
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/calibration_files.h>
-#include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/localization/CellLocalizer.h>
-#include <mrpt_polyloc/localization/ExactLocalizer.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
-#include <mrpt_polyloc/localization/SkeletonLocalizer.h>
+#include <mrpt_polyloc/localization/exact/ExactLocalizer.h>
+#include <mrpt_polyloc/localization/exact/SkeletonLocalizer.h>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -117,20 +117,20 @@ ScanLocalizer makeCells(PolygonMap map, const SearchOptions& search) {
 
 /// What both exact localizers are to the programs.
 template <class Localizer>
-ScanLocalizer exactLocalizer(const PolygonMap& map, const ExactLocalizerParams& params) {
-  const auto localizer = std::make_shared<const Localizer>(map, params);
+ScanLocalizer exactLocalizer(const PolygonMap& map, std::size_t max_hypotheses) {
+  const auto localizer = std::make_shared<const Localizer>(map);
   return {map,
-          [localizer](const RangeScan& scan, const PosePrior& prior) {
-            return localizer->localize(viewPolygon(scan), prior);
+          [localizer, max_hypotheses](const RangeScan& scan, const PosePrior& prior) {
+            return resultOf(localizer->localize(viewPolygon(scan), prior), localizer->tolerance(),
+                            max_hypotheses);
           },
           localizer->bytes()};
 }
 
 ScanLocalizer makeExact(const PolygonMap& map, const SearchOptions& search, std::size_t scans) {
-  ExactLocalizerParams params;
-  params.max_hypotheses = search.max_hypotheses;
-  return SkeletonLocalizer::pays(map, scans) ? exactLocalizer<SkeletonLocalizer>(map, params)
-                                             : exactLocalizer<ExactLocalizer>(map, params);
+  return SkeletonLocalizer::pays(map, scans)
+             ? exactLocalizer<SkeletonLocalizer>(map, search.max_hypotheses)
+             : exactLocalizer<ExactLocalizer>(map, search.max_hypotheses);
 }
 
 LocalizedScan localizeOne(const ScanLocalizer& localizer, const RangeScan& scan, std::size_t row,

@@ -2,10 +2,11 @@
 
 #include "Cli.h"
 #include <mrpt_polyloc/geometry/PolygonMap.h>
-#include <mrpt_polyloc/localization/Calibration.h>
+#include <mrpt_polyloc/io/scan_files.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
-#include <mrpt_polyloc/localization/RangeScan.h>
-#include <mrpt_polyloc/mrpt_bridge/scan_files.h>
+#include <mrpt_polyloc/localization/ranking/Calibration.h>
+#include <mrpt_polyloc/localization/scan/PosePrior.h>
+#include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <cstddef>
 #include <cstdint>

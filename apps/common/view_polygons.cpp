@@ -1,9 +1,9 @@
 #include "view_polygons.h"
 
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/geometry/wkt.h>
-#include <mrpt_polyloc/localization/ExactLocalizer.h>
-#include <mrpt_polyloc/localization/SeenPolygon.h>
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/wkt.h>
+#include <mrpt_polyloc/localization/exact/ExactLocalizer.h>
+#include <mrpt_polyloc/localization/exact/SeenPolygon.h>
 
 #include <algorithm>
 #include <cmath>

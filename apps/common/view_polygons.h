@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mrpt_polyloc/localization/RangeScan.h>
+#include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <mrpt/math/TPoint2D.h>
 

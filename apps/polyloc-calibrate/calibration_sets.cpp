@@ -1,8 +1,8 @@
 #include "calibration_sets.h"
 
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/truth.h>
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/mrpt_bridge/scan_files.h>
+#include <mrpt_polyloc/io/scan_files.h>
 
 #include <algorithm>
 #include <filesystem>

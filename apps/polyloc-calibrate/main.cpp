@@ -5,9 +5,9 @@
 #include "calibration_sets.h"
 #include "curves.h"
 #include "sample_collection.h"
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/CalibrationFit.h>
 #include <mrpt_polyloc/evaluation/calibration_files.h>
-#include <mrpt_polyloc/geometry/errors.h>
 
 #include <nlohmann/json.hpp>
 

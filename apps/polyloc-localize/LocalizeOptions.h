@@ -2,8 +2,8 @@
 
 #include "../common/parsing.h"
 #include "../common/search.h"
-#include <mrpt_polyloc/localization/LocalizationResult.h>
-#include <mrpt_polyloc/mrpt_bridge/scan_files.h>
+#include <mrpt_polyloc/io/scan_files.h>
+#include <mrpt_polyloc/localization/scan/PosePrior.h>
 
 #include <cstdint>
 #include <limits>

@@ -8,7 +8,7 @@
 #include "hypothesis_csv.h"
 #include "particle_filter_ini.h"
 #include "scan_picture.h"
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/errors.h>
 
 #include <iostream>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include "../common/search.h"
 #include <mrpt_polyloc/geometry/PolygonMap.h>
-#include <mrpt_polyloc/localization/RangeScan.h>
+#include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <string>
 #include <vector>

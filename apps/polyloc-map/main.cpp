@@ -9,8 +9,8 @@
 #include "map_report.h"
 #include "map_scene.h"
 #include "view_text.h"
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/geometry/polygon_files.h>
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/polygon_files.h>
 
 #include <filesystem>
 #include <iostream>

@@ -1,8 +1,8 @@
 #include "map_report.h"
 
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/summary_json.h>
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/geometry/polygon_files.h>
+#include <mrpt_polyloc/io/polygon_files.h>
 
 #include <cstdio>
 

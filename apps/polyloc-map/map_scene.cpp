@@ -1,7 +1,7 @@
 #include "map_scene.h"
 
+#include <mrpt_polyloc/io/mrpt_compat.h>
 #include <mrpt_polyloc/mrpt_bridge/map_lines.h>
-#include <mrpt_polyloc/mrpt_bridge/mrpt_compat.h>
 
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>

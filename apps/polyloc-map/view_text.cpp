@@ -1,8 +1,8 @@
 #include "view_text.h"
 
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/geometry/number_text.h>
 #include <mrpt_polyloc/visibility/ViewExpander.h>
 #include <mrpt_polyloc/visibility/visibility_polygon.h>
 

@@ -1,7 +1,7 @@
 #include "FilterRun.h"
 
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/mrpt_bridge/mrpt_archive.h>
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/mrpt_archive.h>
 
 #include <mrpt/poses/CPose2D.h>
 #include <mrpt/random/RandomGenerators.h>

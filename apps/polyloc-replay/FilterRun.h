@@ -2,7 +2,7 @@
 
 #include "ReplayConfig.h"
 #include "replay_maps.h"
-#include <mrpt_polyloc/mrpt_bridge/replay_log.h>
+#include <mrpt_polyloc/io/replay_log.h>
 
 #include <mrpt/math/CMatrixFixed.h>
 #include <mrpt/math/TPose2D.h>

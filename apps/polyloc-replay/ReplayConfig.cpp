@@ -3,10 +3,10 @@
 #include "../common/angles.h"
 #include "../common/parsing.h"
 #include "ini_section.h"
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/geometry/params_check.h>
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/params_check.h>
+#include <mrpt_polyloc/io/mrpt_archive.h>
 #include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
-#include <mrpt_polyloc/mrpt_bridge/mrpt_archive.h>
 
 #include <algorithm>
 #include <filesystem>

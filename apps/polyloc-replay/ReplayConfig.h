@@ -1,9 +1,9 @@
 #pragma once
 
+#include <mrpt_polyloc/io/replay_log.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/mrpt_bridge/FilterRecovery.h>
 #include <mrpt_polyloc/mrpt_bridge/ParticleSeeder.h>
-#include <mrpt_polyloc/mrpt_bridge/replay_log.h>
 
 #include <mrpt/bayes/CParticleFilter.h>
 #include <mrpt/config/CConfigFileMemory.h>

@@ -1,7 +1,7 @@
 #include "ini_section.h"
 
 #include "../common/parsing.h"
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
 
 #include <cctype>

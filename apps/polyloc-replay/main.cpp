@@ -9,8 +9,8 @@
 #include "replay_report.h"
 #include "replay_scene.h"
 #include "replay_statistics.h"
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/truth.h>
-#include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/mrpt_bridge/registration.h>
 
 #include <mrpt/random/RandomGenerators.h>

@@ -1,9 +1,9 @@
 #include "replay_maps.h"
 
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/mrpt_bridge/GzInputStream.h>
-#include <mrpt_polyloc/mrpt_bridge/map_files.h>
-#include <mrpt_polyloc/mrpt_bridge/mrpt_archive.h>
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/GzInputStream.h>
+#include <mrpt_polyloc/io/map_files.h>
+#include <mrpt_polyloc/io/mrpt_archive.h>
 
 #include <mrpt/maps/CMetricMap.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>

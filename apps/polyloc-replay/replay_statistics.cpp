@@ -1,8 +1,8 @@
 #include "replay_statistics.h"
 
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/truth.h>
-#include <mrpt_polyloc/geometry/angles.h>
-#include <mrpt_polyloc/geometry/errors.h>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "../common/map_input.h"
 #include <mrpt_polyloc/evaluation/Simulator.h>
 #include <mrpt_polyloc/evaluation/truth.h>
-#include <mrpt_polyloc/mrpt_bridge/rawlog_writer.h>
+#include <mrpt_polyloc/io/rawlog_writer.h>
 
 #include <filesystem>
 #include <iostream>

@@ -1,6 +1,6 @@
+#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/evaluation/CalibrationFit.h>
 #include <mrpt_polyloc/evaluation/LogisticRegression.h>
-#include <mrpt_polyloc/geometry/params_check.h>
 
 #include <algorithm>
 #include <cmath>

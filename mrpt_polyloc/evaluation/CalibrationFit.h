@@ -3,7 +3,7 @@
 #include <mrpt_polyloc/evaluation/calibration_samples.h>
 #include <mrpt_polyloc/evaluation/reliability.h>
 #include <mrpt_polyloc/evaluation/roc.h>
-#include <mrpt_polyloc/localization/Calibration.h>
+#include <mrpt_polyloc/localization/ranking/Calibration.h>
 
 #include <cstddef>
 #include <optional>

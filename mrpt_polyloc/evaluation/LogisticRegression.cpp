@@ -1,5 +1,5 @@
+#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/evaluation/LogisticRegression.h>
-#include <mrpt_polyloc/geometry/params_check.h>
 
 #include <Eigen/Dense>
 

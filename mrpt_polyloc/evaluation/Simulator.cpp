@@ -1,7 +1,7 @@
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/Simulator.h>
 #include <mrpt_polyloc/geometry/FreeSpaceSampler.h>
-#include <mrpt_polyloc/geometry/angles.h>
-#include <mrpt_polyloc/geometry/errors.h>
 
 #include <mrpt/core/Clock.h>
 

@@ -1,5 +1,5 @@
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/evaluation/Summary.h>
-#include <mrpt_polyloc/geometry/angles.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/calibration_files.h>
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/geometry/json_input.h>
+#include <mrpt_polyloc/io/json_input.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/evaluation/CalibrationFit.h>
-#include <mrpt_polyloc/localization/Calibration.h>
+#include <mrpt_polyloc/localization/ranking/Calibration.h>
 
 #include <nlohmann/json_fwd.hpp>
 

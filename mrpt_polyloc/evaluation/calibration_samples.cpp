@@ -1,5 +1,5 @@
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/evaluation/calibration_samples.h>
-#include <mrpt_polyloc/geometry/angles.h>
 
 #include <Eigen/Dense>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <mrpt_polyloc/evaluation/Summary.h>
-#include <mrpt_polyloc/localization/Calibration.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
+#include <mrpt_polyloc/localization/ranking/Calibration.h>
 
 #include <mrpt/math/TPose2D.h>
 

@@ -1,7 +1,7 @@
+#include <mrpt_polyloc/base/Random.h>
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/evaluation/clutter.h>
-#include <mrpt_polyloc/geometry/Random.h>
-#include <mrpt_polyloc/geometry/angles.h>
-#include <mrpt_polyloc/geometry/params_check.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/reliability.h>
-#include <mrpt_polyloc/geometry/errors.h>
 
 #include <algorithm>
 #include <cmath>

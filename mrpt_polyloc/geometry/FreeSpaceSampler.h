@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mrpt_polyloc/geometry/Random.h>
+#include <mrpt_polyloc/base/Random.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 
 #include <cstddef>

@@ -1,5 +1,5 @@
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/geometry/constrained_delaunay.h>
-#include <mrpt_polyloc/geometry/errors.h>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_plus_2.h>

@@ -1,8 +1,8 @@
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/geometry/bitmap_regions.h>
 #include <mrpt_polyloc/geometry/border_chains.h>
 #include <mrpt_polyloc/geometry/chain_simplification.h>
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/geometry/ring_assembly.h>
 #include <mrpt_polyloc/geometry/tracing.h>
 

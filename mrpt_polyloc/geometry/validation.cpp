@@ -1,5 +1,5 @@
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/geometry/border_tracing.h>
-#include <mrpt_polyloc/geometry/errors.h>
 #include <mrpt_polyloc/geometry/findings.h>
 #include <mrpt_polyloc/geometry/polygon_verdicts.h>
 #include <mrpt_polyloc/geometry/validation.h>

@@ -1,10 +1,11 @@
+#include <mrpt_polyloc/base/Stopwatch.h>
+#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
-#include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/CellLocalizer.h>
-#include <mrpt_polyloc/localization/Stopwatch.h>
-#include <mrpt_polyloc/localization/candidate_ranking.h>
-#include <mrpt_polyloc/localization/cell_views.h>
+#include <mrpt_polyloc/localization/nearest_cells/cell_views.h>
+#include <mrpt_polyloc/localization/ranking/candidate_ranking.h>
 #include <mrpt_polyloc/polar/CirclePlan.h>
+#include <mrpt_polyloc/visibility/RangePredictor.h>
 #include <mrpt_polyloc/visibility/VisibilityCells.h>
 
 #include <array>
@@ -145,12 +146,13 @@ LocalizationResult CellLocalizer::localize(const RangeScan& scan, const PosePrio
       });
   result.statistics.search_ms = 1e3 * watch.seconds();
 
-  LocalizationResult ranked =
+  const Stopwatch ranking;
+  LocalizationResult ranked = resultOf(
       rankCandidates(candidates, scan, prior, *impl_->predictor,
-                     {params.max_hypotheses, params.cost, params.refinement, params.hypotheses});
-  ranked.statistics.positions = result.statistics.positions;
-  ranked.statistics.evaluated = result.statistics.evaluated;
-  ranked.statistics.search_ms = result.statistics.search_ms;
+                     {params.max_hypotheses, params.cost, params.refinement, params.hypotheses}));
+  ranked.statistics = result.statistics;
+  ranked.statistics.refined = candidates.size();
+  ranked.statistics.refinement_ms = 1e3 * ranking.seconds();
   return ranked;
 }
 

@@ -2,12 +2,13 @@
 
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
-#include <mrpt_polyloc/localization/PoseRefiner.h>
-#include <mrpt_polyloc/localization/RangeScan.h>
-#include <mrpt_polyloc/localization/RobustCost.h>
-#include <mrpt_polyloc/localization/ViewIndex.h>
-#include <mrpt_polyloc/localization/hypotheses.h>
-#include <mrpt_polyloc/localization/scan_view.h>
+#include <mrpt_polyloc/localization/nearest_cells/ViewIndex.h>
+#include <mrpt_polyloc/localization/nearest_cells/scan_view.h>
+#include <mrpt_polyloc/localization/ranking/HypothesisParams.h>
+#include <mrpt_polyloc/localization/scan/PosePrior.h>
+#include <mrpt_polyloc/localization/scan/PoseRefinerParams.h>
+#include <mrpt_polyloc/localization/scan/RangeScan.h>
+#include <mrpt_polyloc/localization/scan/RobustCostParams.h>
 
 #include <cstddef>
 #include <memory>

@@ -1,13 +1,14 @@
+#include <mrpt_polyloc/base/Stopwatch.h>
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/geometry/params_check.h>
-#include <mrpt_polyloc/localization/BandQuery.h>
-#include <mrpt_polyloc/localization/CellTree.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
-#include <mrpt_polyloc/localization/ScanCost.h>
-#include <mrpt_polyloc/localization/Stopwatch.h>
-#include <mrpt_polyloc/localization/candidate_ranking.h>
-#include <mrpt_polyloc/localization/search_index_file.h>
+#include <mrpt_polyloc/localization/ranking/candidate_ranking.h>
+#include <mrpt_polyloc/localization/search/BandQuery.h>
+#include <mrpt_polyloc/localization/search/CellTree.h>
+#include <mrpt_polyloc/localization/search/CertifiedSearch.h>
+#include <mrpt_polyloc/localization/search/PoseScorer.h>
+#include <mrpt_polyloc/localization/search/search_index_file.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 
 #include <algorithm>
@@ -84,18 +85,9 @@ struct GlobalLocalizer::Impl {
 std::vector<TPose2D> GlobalLocalizer::Impl::search(const RangeScan& scan, const PosePrior& prior,
                                                    LocalizationResult& result) const {
   const BandQuery query(scan, params.search_cost, params.search_metric);
-  const RangeScan searched(query.beams, scan.sensor());
-  const ScanCost cost(predictor, searched, params.search_cost);
-  const PoseRefiner refiner(predictor, searched, params.refinement);
-  const auto cost_at = [&](const TPose2D& pose) {
-    return params.search_metric == SearchMetric::polar ? cost.polarDistance(pose) : cost.mean(pose);
-  };
-  const CertifiedSearchResult found = searchCells(
-      cells, query, prior, scan.sensor(),
-      [&](const TPose2D& pose) {
-        return std::min(cost_at(pose), cost_at(refiner.refine(pose).pose_map_beams));
-      },
-      params.certified);
+  const PoseScorer scorer(predictor, query, scan.sensor(), params.search_cost, params.refinement);
+  const CertifiedSearchResult found =
+      searchCells(cells, query, prior, scan.sensor(), scorer, params.certified);
   result.statistics.positions = cells.nodes(0).size();
   result.statistics.evaluated = found.evaluated;
   result.certificate = Certificate{found.certified_cost, found.is_complete, found.regions.size()};
@@ -146,9 +138,14 @@ LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePr
   const Stopwatch watch;
   const std::vector<TPose2D> candidates = impl_->search(scan, prior, found);
   const double search_ms = 1e3 * watch.seconds();
-  LocalizationResult result =
+  const Stopwatch ranking;
+  LocalizationResult result = resultOf(
       rankCandidates(candidates, scan, prior, impl_->predictor,
-                     {params.max_hypotheses, params.cost, params.refinement, params.hypotheses});
+                     {params.max_hypotheses, params.cost, params.refinement, params.hypotheses}));
+  result.statistics = found.statistics;
+  result.statistics.search_ms = search_ms;
+  result.statistics.refined = candidates.size();
+  result.statistics.refinement_ms = 1e3 * ranking.seconds();
   result.certificate = found.certificate;
   // What a budget left out may be as good.
   if (result.status == LocalizationStatus::unique && found.certificate &&
@@ -156,9 +153,6 @@ LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePr
     result.status = LocalizationStatus::ambiguous;
   }
   result.regions = std::move(found.regions);
-  result.statistics.positions = found.statistics.positions;
-  result.statistics.evaluated = found.statistics.evaluated;
-  result.statistics.search_ms = search_ms;
   return result;
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <mrpt_polyloc/geometry/PolygonMap.h>
-#include <mrpt_polyloc/localization/CertifiedSearch.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
-#include <mrpt_polyloc/localization/PoseRefiner.h>
-#include <mrpt_polyloc/localization/RangeScan.h>
-#include <mrpt_polyloc/localization/RobustCost.h>
-#include <mrpt_polyloc/localization/SearchMetric.h>
-#include <mrpt_polyloc/localization/hypotheses.h>
+#include <mrpt_polyloc/localization/ranking/HypothesisParams.h>
+#include <mrpt_polyloc/localization/scan/PosePrior.h>
+#include <mrpt_polyloc/localization/scan/PoseRefinerParams.h>
+#include <mrpt_polyloc/localization/scan/RangeScan.h>
+#include <mrpt_polyloc/localization/scan/RobustCostParams.h>
+#include <mrpt_polyloc/localization/search/CertifiedSearchParams.h>
+#include <mrpt_polyloc/localization/search/SearchMetric.h>
 
 #include <cstddef>
 #include <memory>

@@ -1,36 +1,39 @@
-#include <mrpt_polyloc/geometry/angles.h>
-#include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 
-#include <limits>
+#include <algorithm>
+#include <utility>
 
 namespace mrpt_polyloc {
 
-void PosePrior::check() const {
-  constexpr double kGreatest = std::numeric_limits<double>::max();  // any finite number
-  if (compass) {
-    requireInRange("compass heading", compass->heading, -kGreatest, kGreatest);
-    requireInRange("compass tolerance", compass->tolerance, 0.0, kPi);
-  }
-  if (near) {
-    requireInRange("near x", near->x, -kGreatest, kGreatest);
-    requireInRange("near y", near->y, -kGreatest, kGreatest);
-    requireInRange("near radius", near->radius, 0.0, kGreatest);
-  }
+LocalizationResult resultOf(Assessment assessment) {
+  LocalizationResult result;
+  result.status = assessment.status;
+  result.match_probability = assessment.match_probability;
+  result.features = assessment.features;
+  result.hypotheses = std::move(assessment.hypotheses);
+  return result;
 }
 
-const char* toString(LocalizationStatus status) {
-  switch (status) {
-    case LocalizationStatus::unique:
-      return "unique";
-    case LocalizationStatus::ambiguous:
-      return "ambiguous";
-    case LocalizationStatus::no_match:
-      return "no_match";
-    case LocalizationStatus::too_few_beams:
-      break;
+LocalizationResult resultOf(const ExactAnswers& answers, double tolerance,
+                            std::size_t max_hypotheses) {
+  const auto& poses = answers.poses;
+  LocalizationResult result;
+  result.statistics.positions = answers.positions;
+  result.statistics.evaluated = answers.evaluated;
+  result.match_probability = poses.empty() ? 0.0 : 1.0;  // without noise nothing is left to chance
+  result.status = poses.empty()       ? LocalizationStatus::no_match
+                  : poses.size() == 1 ? LocalizationStatus::unique
+                                      : LocalizationStatus::ambiguous;
+  const std::size_t count = std::min(poses.size(), max_hypotheses);
+  for (std::size_t i = 0; i < count; ++i) {
+    Hypothesis hypothesis;
+    hypothesis.pose_map_robot = poses[i];
+    hypothesis.covariance.setZero();
+    for (int k = 0; k < 3; ++k) hypothesis.covariance(k, k) = tolerance * tolerance;
+    hypothesis.weight = 1.0 / static_cast<double>(count);
+    result.hypotheses.push_back(hypothesis);
   }
-  return "too_few_beams";
+  return result;
 }
 
 }  // namespace mrpt_polyloc

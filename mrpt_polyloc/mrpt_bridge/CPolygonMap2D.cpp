@@ -1,5 +1,5 @@
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/geometry/geojson.h>
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/geojson.h>
 #include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
 #include <mrpt_polyloc/mrpt_bridge/PolygonMapContent.h>
 #include <mrpt_polyloc/mrpt_bridge/ini_keys.h>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <mrpt_polyloc/geometry/PolygonMap.h>
+#include <mrpt_polyloc/io/map_files.h>
+#include <mrpt_polyloc/io/mrpt_compat.h>
 #include <mrpt_polyloc/mrpt_bridge/PolygonLikelihood.h>
-#include <mrpt_polyloc/mrpt_bridge/map_files.h>
-#include <mrpt_polyloc/mrpt_bridge/mrpt_compat.h>
 
 #include <mrpt/maps/CMetricMap.h>
 #include <mrpt/math/TBoundingBox.h>

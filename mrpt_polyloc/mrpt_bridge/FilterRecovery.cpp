@@ -1,6 +1,6 @@
-#include <mrpt_polyloc/geometry/params_check.h>
+#include <mrpt_polyloc/base/params_check.h>
+#include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/mrpt_bridge/FilterRecovery.h>
-#include <mrpt_polyloc/mrpt_bridge/observation.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <mrpt_polyloc/geometry/params_check.h>
+#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/mrpt_bridge/ParticleSeeder.h>
 
 #include <Eigen/Dense>

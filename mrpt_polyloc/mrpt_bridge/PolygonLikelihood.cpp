@@ -1,8 +1,8 @@
-#include <mrpt_polyloc/geometry/cpu_dispatch.h>
-#include <mrpt_polyloc/geometry/params_check.h>
+#include <mrpt_polyloc/base/cpu_dispatch.h>
+#include <mrpt_polyloc/base/params_check.h>
+#include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/mrpt_bridge/PolygonLikelihood.h>
 #include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
-#include <mrpt_polyloc/mrpt_bridge/observation.h>
 
 #include <mrpt/config/CConfigFileBase.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mrpt_polyloc/localization/RobustCost.h>
+#include <mrpt_polyloc/localization/scan/RobustCost.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 
 #include <mrpt/config/CLoadableOptions.h>

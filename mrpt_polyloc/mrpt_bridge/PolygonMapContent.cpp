@@ -1,5 +1,5 @@
-#include <mrpt_polyloc/geometry/geojson.h>
 #include <mrpt_polyloc/geometry/validation.h>
+#include <mrpt_polyloc/io/geojson.h>
 #include <mrpt_polyloc/mrpt_bridge/PolygonMapContent.h>
 
 #include <functional>

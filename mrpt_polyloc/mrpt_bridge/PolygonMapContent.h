@@ -1,7 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/geometry/NearestWalls.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
-#include <mrpt_polyloc/mrpt_bridge/NearestWalls.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 
 #include <memory>

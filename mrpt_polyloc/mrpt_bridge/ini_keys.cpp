@@ -1,5 +1,5 @@
+#include <mrpt_polyloc/io/numbers.h>
 #include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
-#include <mrpt_polyloc/mrpt_bridge/numbers.h>
 
 #include <algorithm>
 

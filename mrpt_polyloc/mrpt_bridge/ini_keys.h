@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/errors.h>
 
 #include <mrpt/config/CConfigFileBase.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mrpt_polyloc/mrpt_bridge/NearestWalls.h>
+#include <mrpt_polyloc/geometry/NearestWalls.h>
 
 #include <mrpt/maps/CMetricMap.h>
 #include <mrpt/poses/CPose3D.h>

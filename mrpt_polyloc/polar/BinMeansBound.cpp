@@ -1,6 +1,6 @@
-#include <mrpt_polyloc/geometry/angles.h>
-#include <mrpt_polyloc/geometry/cpu_dispatch.h>
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/cpu_dispatch.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/polar/BinMeansBound.h>
 
 #include <algorithm>

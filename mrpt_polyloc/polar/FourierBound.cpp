@@ -1,5 +1,5 @@
-#include <mrpt_polyloc/geometry/angles.h>
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/polar/FourierBound.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include <mrpt_polyloc/geometry/angles.h>
-#include <mrpt_polyloc/geometry/params_check.h>
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/polar/PolarFunction.h>
 
 #include <algorithm>

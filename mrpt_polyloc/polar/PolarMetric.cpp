@@ -1,5 +1,5 @@
-#include <mrpt_polyloc/geometry/cpu_dispatch.h>
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/cpu_dispatch.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include <mrpt_polyloc/geometry/angles.h>
-#include <mrpt_polyloc/geometry/cpu_dispatch.h>
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/cpu_dispatch.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 #include <mrpt_polyloc/visibility/depth_buffer.h>
 

@@ -1,5 +1,5 @@
+#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/geometry/orientation.h>
-#include <mrpt_polyloc/geometry/params_check.h>
 #include <mrpt_polyloc/visibility/VisibilityCells.h>
 #include <mrpt_polyloc/visibility/segment_crossings.h>
 

@@ -1,4 +1,4 @@
-#include <mrpt_polyloc/geometry/cpu_dispatch.h>
+#include <mrpt_polyloc/base/cpu_dispatch.h>
 #include <mrpt_polyloc/visibility/depth_buffer.h>
 #include <mrpt_polyloc/visibility/fast_atan2.h>
 

@@ -1,4 +1,4 @@
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/visibility/segment_arrangement.h>
 
 #include <CGAL/Arr_curve_data_traits_2.h>

@@ -1,7 +1,7 @@
 #include "apps/common/OutputFiles.h"
 
 #include "ProgramTest.h"
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/errors.h>
 
 #include <gmock/gmock.h>
 

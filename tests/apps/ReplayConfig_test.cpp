@@ -1,5 +1,5 @@
 #include "ProgramTest.h"
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/errors.h>
 
 #include <gmock/gmock.h>
 

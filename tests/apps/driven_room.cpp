@@ -1,9 +1,9 @@
 #include "driven_room.h"
 
-#include "tests/localization/simulated_scans.h"
-#include "tests/mrpt_bridge/bridge_files.h"
+#include "tests/support/bridge_files.h"
+#include "tests/support/simulated_scans.h"
 #include <mrpt_polyloc/evaluation/truth.h>
-#include <mrpt_polyloc/mrpt_bridge/observation.h>
+#include <mrpt_polyloc/io/observation.h>
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>

@@ -1,5 +1,5 @@
 #include "ProgramTest.h"
-#include <mrpt_polyloc/mrpt_bridge/rawlog_writer.h>
+#include <mrpt_polyloc/io/rawlog_writer.h>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

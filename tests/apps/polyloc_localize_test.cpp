@@ -1,6 +1,6 @@
 #include "ProgramTest.h"
 #include <mrpt_polyloc/evaluation/truth.h>
-#include <mrpt_polyloc/mrpt_bridge/rawlog_writer.h>
+#include <mrpt_polyloc/io/rawlog_writer.h>
 
 #include <gmock/gmock.h>
 #include <mrpt/core/Clock.h>

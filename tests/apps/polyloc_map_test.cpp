@@ -1,6 +1,6 @@
 #include "ProgramTest.h"
-#include <mrpt_polyloc/mrpt_bridge/mrpt_archive.h>
-#include <mrpt_polyloc/mrpt_bridge/mrpt_compat.h>
+#include <mrpt_polyloc/io/mrpt_archive.h>
+#include <mrpt_polyloc/io/mrpt_compat.h>
 
 #include <gmock/gmock.h>
 #include <mrpt/opengl/CSetOfLines.h>

@@ -2,7 +2,7 @@
 #include "driven_room.h"
 #include "tests/support/data_dir.h"
 #include <mrpt_polyloc/evaluation/truth.h>
-#include <mrpt_polyloc/mrpt_bridge/map_files.h>
+#include <mrpt_polyloc/io/map_files.h>
 
 #include <gmock/gmock.h>
 #include <mrpt/opengl/COpenGLScene.h>

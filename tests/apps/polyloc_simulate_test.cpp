@@ -1,6 +1,6 @@
 #include "ProgramTest.h"
 #include <mrpt_polyloc/evaluation/truth.h>
-#include <mrpt_polyloc/mrpt_bridge/scan_files.h>
+#include <mrpt_polyloc/io/scan_files.h>
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 #include "ProgramTest.h"
 #include "driven_room.h"
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/errors.h>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

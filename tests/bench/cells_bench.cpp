@@ -2,10 +2,10 @@
 // 100,000 views by bounds in a row, by the metric tree, and by trying all.
 #include "tests/support/map_factories.h"
 #include "tests/support/random_maps.h"
-#include <mrpt_polyloc/geometry/angles.h>
-#include <mrpt_polyloc/localization/MetricTree.h>
-#include <mrpt_polyloc/localization/ViewIndex.h>
-#include <mrpt_polyloc/localization/cell_views.h>
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/localization/nearest_cells/MetricTree.h>
+#include <mrpt_polyloc/localization/nearest_cells/ViewIndex.h>
+#include <mrpt_polyloc/localization/nearest_cells/cell_views.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
 #include <mrpt_polyloc/visibility/VisibilityCells.h>
 

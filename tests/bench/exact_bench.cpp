@@ -2,8 +2,8 @@
 // floors of n = 100, 196 and 388 vertices: two rows of rooms along a corridor, as many times as
 // many as the argument says.
 #include "tests/support/random_maps.h"
-#include <mrpt_polyloc/localization/ExactLocalizer.h>
-#include <mrpt_polyloc/localization/SkeletonLocalizer.h>
+#include <mrpt_polyloc/localization/exact/ExactLocalizer.h>
+#include <mrpt_polyloc/localization/exact/SkeletonLocalizer.h>
 #include <mrpt_polyloc/visibility/visibility_polygon.h>
 
 #include <benchmark/benchmark.h>
@@ -53,10 +53,10 @@ void query(benchmark::State& state, const Localizer& localizer, const Views& vie
   std::size_t i = 0, answers = 0, by_classes = 0;
   for (auto _ : state) {
     const double start = cpuMicroseconds();
-    const LocalizationResult result = localizer.localize(views[i++ % views.size()], prior);
+    const ExactAnswers result = localizer.localize(views[i++ % views.size()], prior);
     took.push_back(cpuMicroseconds() - start);
-    answers += result.hypotheses.size();
-    by_classes += result.statistics.positions > 0 ? 1 : 0;
+    answers += result.poses.size();
+    by_classes += result.positions > 0 ? 1 : 0;
   }
   std::sort(took.begin(), took.end());
   const auto count = static_cast<double>(took.size());

@@ -9,10 +9,10 @@
 // rms error, and the median of the error's squared Mahalanobis distance by the particles'
 // covariance in x and y: 1.39 where the spread is right, more where the filter is overconfident.
 #include <mrpt_polyloc/geometry/FreeSpaceSampler.h>
+#include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
 #include <mrpt_polyloc/mrpt_bridge/ParticleSeeder.h>
-#include <mrpt_polyloc/mrpt_bridge/observation.h>
 
 #include <mrpt/bayes/CParticleFilter.h>
 #include <mrpt/obs/CActionCollection.h>

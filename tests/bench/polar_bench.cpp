@@ -1,8 +1,8 @@
 // Polar coordinate metric: ns per pair of views and per merged interval.
 
-#include <mrpt_polyloc/polar/ExactPolarMetric.h>
 #include <mrpt_polyloc/polar/FourierBound.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
+#include <mrpt_polyloc/polar/exact/ExactPolarMetric.h>
 
 #include <benchmark/benchmark.h>
 

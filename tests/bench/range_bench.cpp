@@ -2,7 +2,7 @@
 // (counter `ratio`), and on real maps where POLYLOC_DATA is set.
 #include "tests/support/data_dir.h"
 #include "tests/support/random_maps.h"
-#include <mrpt_polyloc/mrpt_bridge/map_files.h>
+#include <mrpt_polyloc/io/map_files.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 #include <mrpt_polyloc/visibility/ViewExpander.h>
 

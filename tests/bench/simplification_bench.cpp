@@ -1,6 +1,6 @@
 /// Simplification of traced borders: ours against CGAL's Polyline_simplification_2 with the same
 /// tolerance. Counter: points left.
-#include "../support/noisy_grid.h"
+#include "tests/support/noisy_grid.h"
 #include <mrpt_polyloc/geometry/chain_simplification.h>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>

@@ -1,6 +1,6 @@
 /// Tracing of a synthetic noisy grid: sides of 1,000 cells up to 5,000 x 4,600. Counters: vertices
 /// and holes of the map, and the border corners before simplification.
-#include "../support/noisy_grid.h"
+#include "tests/support/noisy_grid.h"
 #include <mrpt_polyloc/geometry/tracing.h>
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
+#include <mrpt_polyloc/base/Random.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/CalibrationFit.h>
 #include <mrpt_polyloc/evaluation/LogisticRegression.h>
-#include <mrpt_polyloc/geometry/Random.h>
-#include <mrpt_polyloc/geometry/errors.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "tests/support/temp_file.h"
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/calibration_files.h>
-#include <mrpt_polyloc/geometry/errors.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -83,7 +83,7 @@ TEST(CalibrationHeader, HoldsTheConstants) {
 TEST(CalibrationHeader, TheBuiltInOneIsWhatItWouldWrite) {
   // Written by hand it would drift: all but the comment on its origin must come out again.
   std::ifstream file(std::string(POLYLOC_SOURCE_DIR) +
-                     "/mrpt_polyloc/localization/default_calibration.h");
+                     "/mrpt_polyloc/localization/ranking/default_calibration.h");
   ASSERT_TRUE(file);
   std::string built_in;
   for (std::string line; std::getline(file, line);) {

@@ -1,6 +1,6 @@
+#include <mrpt_polyloc/base/Random.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/reliability.h>
-#include <mrpt_polyloc/geometry/Random.h>
-#include <mrpt_polyloc/geometry/errors.h>
 
 #include <gtest/gtest.h>
 

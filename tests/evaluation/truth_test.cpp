@@ -1,5 +1,5 @@
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/truth.h>
-#include <mrpt_polyloc/geometry/errors.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // own_filter MAP RAWLOG: a particle filter of one's own over an action/sensory-frame rawlog, with a
 // polygon map for its weights. Prints "pose X Y PHI_DEG" of the robot in the map at the end.
+#include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
 #include <mrpt_polyloc/mrpt_bridge/ParticleSeeder.h>
-#include <mrpt_polyloc/mrpt_bridge/observation.h>
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CRawlog.h>

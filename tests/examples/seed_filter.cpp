@@ -1,9 +1,9 @@
 // seed_filter MAP RAWLOG: MRPT's particle filter over an action/sensory-frame rawlog, started from
 // the hypotheses of a search. Prints "pose X Y PHI_DEG" of the robot in the map at the end.
+#include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
 #include <mrpt_polyloc/mrpt_bridge/ParticleSeeder.h>
-#include <mrpt_polyloc/mrpt_bridge/observation.h>
 
 #include <mrpt/bayes/CParticleFilter.h>
 #include <mrpt/obs/CActionCollection.h>

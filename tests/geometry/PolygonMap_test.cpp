@@ -1,8 +1,8 @@
 #include "tests/support/map_factories.h"
 #include "tests/support/ring_oracles.h"
 #include "tests/support/temp_file.h"
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
-#include <mrpt_polyloc/geometry/errors.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "tests/support/random_maps.h"
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
-#include <mrpt_polyloc/geometry/errors.h>
 
 #include <gtest/gtest.h>
 

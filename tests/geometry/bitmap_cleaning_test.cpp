@@ -1,6 +1,6 @@
-#include "../support/bitmap_art.h"
+#include "tests/support/bitmap_art.h"
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/geometry/bitmap_cleaning.h>
-#include <mrpt_polyloc/geometry/errors.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

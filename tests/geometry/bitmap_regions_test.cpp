@@ -1,4 +1,4 @@
-#include "../support/bitmap_art.h"
+#include "tests/support/bitmap_art.h"
 #include <mrpt_polyloc/geometry/bitmap_regions.h>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "../support/bitmap_art.h"
+#include "tests/support/bitmap_art.h"
 #include <mrpt_polyloc/geometry/border_chains.h>
 
 #include <gmock/gmock.h>

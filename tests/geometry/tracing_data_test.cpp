@@ -1,5 +1,5 @@
-#include "../support/data_dir.h"
-#include "../support/pgm.h"
+#include "tests/support/data_dir.h"
+#include "tests/support/pgm.h"
 #include "tracing_oracle.h"
 #include <mrpt_polyloc/geometry/tracing.h>
 

@@ -1,7 +1,7 @@
-#include "../support/bitmap_art.h"
-#include "../support/noisy_grid.h"
+#include "tests/support/bitmap_art.h"
+#include "tests/support/noisy_grid.h"
 #include "tracing_oracle.h"
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/geometry/tracing.h>
 
 #include <gmock/gmock.h>

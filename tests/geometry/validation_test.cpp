@@ -1,7 +1,7 @@
 #include "tests/support/map_factories.h"
 #include "tests/support/ring_oracles.h"
 #include "tests/support/temp_file.h"
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/geometry/validation.h>
 
 #include <gmock/gmock.h>

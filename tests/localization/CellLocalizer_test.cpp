@@ -1,8 +1,8 @@
-#include "params_messages.h"
-#include "simulated_scans.h"
+#include "tests/support/params_messages.h"
 #include "tests/support/random_maps.h"
+#include "tests/support/simulated_scans.h"
 #include <mrpt_polyloc/localization/CellLocalizer.h>
-#include <mrpt_polyloc/localization/cell_views.h>
+#include <mrpt_polyloc/localization/nearest_cells/cell_views.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
 #include <mrpt_polyloc/visibility/VisibilityCells.h>
 #include <mrpt_polyloc/visibility/visibility_polygon.h>

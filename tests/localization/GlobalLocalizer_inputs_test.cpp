@@ -1,6 +1,6 @@
 // What a localizer makes of scans, priors and parameters out of the ordinary.
 #include "global_localizer.h"
-#include "params_messages.h"
+#include "tests/support/params_messages.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
-#include "simulated_scans.h"
 #include "tests/support/random_maps.h"
-#include <mrpt_polyloc/localization/BandQuery.h>
+#include "tests/support/simulated_scans.h"
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
+#include <mrpt_polyloc/localization/search/BandQuery.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulated_scans.h"
+#include "tests/support/simulated_scans.h"
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "map_scenes.h"
 #include "tests/support/temp_file.h"
-#include <mrpt_polyloc/geometry/geojson.h>
+#include <mrpt_polyloc/io/geojson.h>
 #include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
 #include <mrpt_polyloc/mrpt_bridge/registration.h>
 

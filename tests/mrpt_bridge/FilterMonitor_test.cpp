@@ -1,6 +1,6 @@
-#include "tests/localization/simulated_scans.h"
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/localization/ScanCost.h>
+#include "tests/support/simulated_scans.h"
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/localization/scan/ScanCost.h>
 #include <mrpt_polyloc/mrpt_bridge/FilterMonitor.h>
 
 #include <gtest/gtest.h>

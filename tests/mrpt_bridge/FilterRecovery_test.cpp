@@ -1,7 +1,7 @@
-#include "tests/localization/simulated_scans.h"
-#include <mrpt_polyloc/geometry/errors.h>
+#include "tests/support/simulated_scans.h"
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/mrpt_bridge/FilterRecovery.h>
-#include <mrpt_polyloc/mrpt_bridge/observation.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "tests/support/map_factories.h"
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/mrpt_bridge/ParticleSeeder.h>
 
 #include <gtest/gtest.h>

@@ -2,10 +2,11 @@
 # include_direction.sh ROOT: checks who includes whom, prints `FILE:LINE: RULE: TEXT` for each
 # offence, exits 1 if there is one.
 #   - A folder of mrpt_polyloc/ includes only itself and folders before it in `order` below, and
-#     always as <mrpt_polyloc/...>; never apps/ or tests/.
+#     always as <mrpt_polyloc/...>; never apps/ or tests/. A subfolder is a folder of its own: what
+#     lies at the door of localization/ comes after its rooms.
 #   - CGAL is included only by .cpp files of geometry/ and visibility/ (and by tests): its headers
 #     cost 15 s each, and its targets export -frounding-math.
-#   - The core (all folders but mrpt_bridge/ and evaluation/) uses of MRPT only <mrpt/math/...>.
+#   - The core (all folders before io/) uses of MRPT only <mrpt/math/...>.
 set -euo pipefail
 cd "${1:?usage: include_direction.sh ROOT}"
 
@@ -18,9 +19,17 @@ fi
 # shellcheck disable=SC2086
 exec awk '
 BEGIN {
-  count = split("geometry visibility polar localization travel mrpt_bridge evaluation", order)
+  count = split("base geometry visibility polar polar/exact localization/scan localization/exact " \
+                "localization/nearest_cells localization/search localization/ranking " \
+                "localization travel io mrpt_bridge evaluation", order)
   for (i = 1; i <= count; ++i) rank[order[i]] = i
   core = rank["travel"]
+}
+# The folder of a path that is split at its slashes, below mrpt_polyloc/.
+function folderOf(path, parts,    name, i) {
+  name = path[2]
+  for (i = 3; i < parts; ++i) name = name "/" path[i]
+  return name
 }
 function offence(rule) {
   printf "%s:%d: %s: %s\n", FILENAME, FNR, rule, $0
@@ -29,8 +38,9 @@ function offence(rule) {
 FNR == 1 {
   parts = split(FILENAME, path, "/")
   library = path[1] == "mrpt_polyloc" && parts > 2
-  own = library ? rank[path[2]] : 0
-  if (library && !own) offence("unknown folder " path[2])
+  folder = library ? folderOf(path, parts) : ""
+  own = library ? rank[folder] : 0
+  if (library && !own) offence("unknown folder " folder)
   may_use_cgal = path[1] == "tests" || \
       (FILENAME ~ /\.cpp$/ && (path[2] == "geometry" || path[2] == "visibility"))
 }
@@ -39,7 +49,7 @@ FNR == 1 {
   sub(/^[ \t]*#[ \t]*include[ \t]*/, "", target)
   quoted = target ~ /^"/
   gsub(/^[<"]|[>"].*$/, "", target)
-  split(target, part, "/")
+  target_parts = split(target, part, "/")
 
   if (part[1] == "CGAL" && !may_use_cgal) offence("CGAL is not for this file")
   if (!library) next
@@ -49,8 +59,9 @@ FNR == 1 {
     offence("the core uses of MRPT only mrpt/math")
   }
   if (part[1] == "mrpt_polyloc" && target != "mrpt_polyloc/version.h") {
-    if (!(part[2] in rank)) offence("unknown folder " part[2])
-    else if (rank[part[2]] > own) offence(path[2] " must not know " part[2])
+    other = folderOf(part, target_parts)
+    if (!(other in rank)) offence("unknown folder " other)
+    else if (rank[other] > own) offence(folder " must not know " other)
   }
 }
 END { exit failed }

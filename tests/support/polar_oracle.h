@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mrpt_polyloc/geometry/angles.h>
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/polar/PolarFunction.h>
 
 #include <algorithm>

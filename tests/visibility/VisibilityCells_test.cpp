@@ -1,6 +1,6 @@
 #include "tests/support/map_factories.h"
 #include "tests/support/random_maps.h"
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/geometry/orientation.h>
 #include <mrpt_polyloc/visibility/ViewExpander.h>
 #include <mrpt_polyloc/visibility/VisibilityCells.h>

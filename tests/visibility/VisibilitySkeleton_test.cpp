@@ -1,8 +1,8 @@
 #include "tests/support/map_factories.h"
 #include "tests/support/random_maps.h"
-#include <mrpt_polyloc/geometry/angles.h>
-#include <mrpt_polyloc/geometry/errors.h>
-#include <mrpt_polyloc/geometry/wkt.h>
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/wkt.h>
 #include <mrpt_polyloc/visibility/VisibilitySkeleton.h>
 
 #include <gtest/gtest.h>

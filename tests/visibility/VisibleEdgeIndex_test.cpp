@@ -1,5 +1,5 @@
 #include "tests/support/random_maps.h"
-#include <mrpt_polyloc/geometry/errors.h>
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/visibility/ViewExpander.h>
 #include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
 

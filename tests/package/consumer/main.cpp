@@ -1,8 +1,8 @@
 // A user's first program: a map and a scan of it, from the installed headers and library alone.
 #include <mrpt_polyloc/geometry/PolygonMap.h>
+#include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
-#include <mrpt_polyloc/localization/RangeScan.h>
-#include <mrpt_polyloc/mrpt_bridge/observation.h>
+#include <mrpt_polyloc/localization/scan/RangeScan.h>
 #include <mrpt_polyloc/version.h>
 
 #include <mrpt/math/TPose2D.h>

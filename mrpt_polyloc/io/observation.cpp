@@ -1,0 +1,110 @@
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/io/observation.h>
+#include <mrpt_polyloc/io/readings.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace mrpt_polyloc {
+
+namespace {
+
+constexpr double kPlanarTolerance = 1e-3;   // [rad], see the header
+constexpr double kBearingTolerance = 1e-6;  // [rad], of evenly spread beams
+
+[[noreturn]] void refuse(const mrpt::obs::CObservation2DRangeScan& observation,
+                         const std::string& reason) {
+  throw std::invalid_argument("scan of sensor '" + observation.sensorLabel + "': " + reason);
+}
+
+void requirePlanar(const mrpt::obs::CObservation2DRangeScan& observation) {
+  const auto& pose = observation.sensorPose;
+  for (const double value : {pose.x(), pose.y(), pose.z(), pose.yaw(), pose.pitch(), pose.roll()}) {
+    if (!std::isfinite(value)) refuse(observation, "the sensor's pose is not finite");
+  }
+  if (std::abs(pose.pitch()) > kPlanarTolerance || std::abs(pose.roll()) > kPlanarTolerance) {
+    std::ostringstream reason;
+    reason << "the sensor is not planar: pitch " << pose.pitch() * 180 / kPi << " deg, roll "
+           << pose.roll() * 180 / kPi << " deg";
+    if (std::abs(std::abs(pose.roll()) - kPi) < kPlanarTolerance) {
+      reason << " (a laser mounted upside down: store it with roll 0 and its sweep reversed)";
+    }
+    refuse(observation, reason.str());
+  }
+}
+
+/// MRPT fills its bool with whatever byte a file holds, and to load any but 0 and 1 is undefined.
+bool rightToLeft(const mrpt::obs::CObservation2DRangeScan& observation) {
+  unsigned char byte = 0;
+  static_assert(sizeof(observation.rightToLeft) == sizeof(byte));
+  std::memcpy(&byte, &observation.rightToLeft, sizeof(byte));
+  return byte != 0;
+}
+
+}  // namespace
+
+RangeScan toRangeScan(const mrpt::obs::CObservation2DRangeScan& observation) {
+  requirePlanar(observation);
+  const double aperture = static_cast<double>(observation.aperture);
+  if (!std::isfinite(aperture) || aperture < 0.0) {
+    refuse(observation, "its aperture is negative or not finite");
+  }
+  const std::size_t count = observation.getScanSize();
+  const double sweep = rightToLeft(observation) ? aperture : -aperture;
+  const double step = count > 1 ? sweep / static_cast<double>(count - 1) : 0.0;
+  const double first = observation.sensorPose.yaw() - (count > 1 ? 0.5 * sweep : 0.0);
+
+  std::vector<Beam> beams(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    beams[i] = readingToBeam(
+        first + static_cast<double>(i) * step, static_cast<double>(observation.getScanRange(i)),
+        observation.getScanRangeValidity(i), static_cast<double>(observation.maxRange));
+  }
+  const double stamp = observation.timestamp == INVALID_TIMESTAMP
+                           ? 0.0
+                           : mrpt::Clock::toDouble(observation.timestamp);
+  return RangeScan(std::move(beams), {observation.sensorPose.x(), observation.sensorPose.y()},
+                   stamp, observation.sensorLabel);
+}
+
+mrpt::obs::CObservation2DRangeScan toObservation(const RangeScan& scan, double aperture, double yaw,
+                                                 double max_range) {
+  if (!std::isfinite(aperture) || aperture < 0.0 || !std::isfinite(yaw)) {
+    throw std::invalid_argument("toObservation: aperture or yaw is negative or not finite");
+  }
+  if (!std::isfinite(max_range) || max_range <= 0.0) {
+    throw std::invalid_argument("toObservation: max_range is not positive");
+  }
+  const auto& beams = scan.beams();
+  const double step = beams.size() > 1 ? aperture / static_cast<double>(beams.size() - 1) : 0.0;
+  const double first = yaw - (beams.size() > 1 ? 0.5 * aperture : 0.0);
+
+  mrpt::obs::CObservation2DRangeScan observation;
+  observation.aperture = static_cast<float>(aperture);
+  observation.maxRange = static_cast<float>(max_range);
+  observation.rightToLeft = true;
+  observation.sensorLabel = scan.label();
+  observation.sensorPose = mrpt::poses::CPose3D(scan.sensor().x, scan.sensor().y, 0, yaw, 0, 0);
+  observation.timestamp = mrpt::Clock::fromDouble(scan.stamp());
+  observation.resizeScanAndAssign(beams.size(), 0.0F, false);
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    const Beam& beam = beams[i];
+    if (beam.kind == BeamKind::invalid) continue;
+    const double bearing = first + static_cast<double>(i) * step;
+    if (std::abs(std::remainder(beam.bearing - bearing, 2 * kPi)) > kBearingTolerance) {
+      throw std::invalid_argument("toObservation: beam " + std::to_string(i) +
+                                  " is not where evenly spread beams would have it");
+    }
+    const bool hit = beam.kind == BeamKind::hit && beam.range < max_range;
+    observation.setScanRange(i, static_cast<float>(hit ? beam.range : max_range));
+    observation.setScanRangeValidity(i, hit);
+  }
+  return observation;
+}
+
+}  // namespace mrpt_polyloc

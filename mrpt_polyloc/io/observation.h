@@ -1,0 +1,33 @@
+#pragma once
+
+#include <mrpt_polyloc/localization/scan/RangeScan.h>
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+namespace mrpt_polyloc {
+
+/// MRPT's observation as a RangeScan: bearings in the robot frame with the sensor's yaw and the
+/// direction of the sweep (`rightToLeft`) taken in, the sensor's position as the beams' origin.
+///
+/// As in MRPT the aperture spans the beams from the first to the last, both included:
+/// bearing_i = yaw -+ aperture (i / (N - 1) - 1/2); a single beam looks along the sensor's yaw.
+/// Kinds: flagged valid = hit; not valid with a finite range > 0 = no-return; a range that is 0,
+/// negative, NaN or infinite = invalid; a hit at or above `maxRange` is a no-return. A no-return's
+/// range is `maxRange`, or the reading where `maxRange` says nothing. A stamp that is not set is 0.
+/// \throws std::invalid_argument if the sensor's pitch or roll is not zero (1 mrad; one mounted
+/// upside down has roll pi), if its pose or aperture is not finite, or the aperture is negative.
+RangeScan toRangeScan(const mrpt::obs::CObservation2DRangeScan& observation);
+
+/// A scan as MRPT's observation, swept right to left; the inverse of toRangeScan() up to the single
+/// precision of MRPT's ranges. A RangeScan does not keep the bearings of its invalid beams, hence
+/// the sensor's shape is given.
+///
+/// \param scan whose beams are spread evenly over `aperture`, both ends included, in rising order
+/// \param aperture field of view [rad]
+/// \param yaw of the sensor on the robot, the bearing of its middle [rad]
+/// \param max_range of the sensor [m]; what lies at or beyond it is stored as no-return
+/// \throws std::invalid_argument if a beam is elsewhere (1e-6 rad), or an argument out of range.
+mrpt::obs::CObservation2DRangeScan toObservation(const RangeScan& scan, double aperture, double yaw,
+                                                 double max_range);
+
+}  // namespace mrpt_polyloc

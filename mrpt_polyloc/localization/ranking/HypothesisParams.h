@@ -1,0 +1,19 @@
+#pragma once
+
+#include <mrpt_polyloc/localization/ranking/Calibration.h>
+
+namespace mrpt_polyloc {
+
+struct HypothesisParams {
+  double merge_distance = 0.2;               ///< poses nearer than this are one hypothesis [m] ...
+  double merge_angle = 0.06981317007977318;  ///< ... if their headings are, too [rad], 4 degrees
+  /// A difference of the mean evidence counts in units of its standard error, or of this if that is
+  /// less [m]: the map itself is not better.
+  double indifference = 0.004;
+  Calibration calibration;
+
+  /// \throws InvalidParamsError naming the bad field.
+  void check() const;
+};
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,101 @@
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/params_check.h>
+#include <mrpt_polyloc/localization/ranking/hypotheses.h>
+#include <mrpt_polyloc/localization/ranking/pose_covariance.h>
+#include <mrpt_polyloc/localization/scan/BeamBlocks.h>
+#include <mrpt_polyloc/localization/scan/beam_evidence.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace mrpt_polyloc {
+namespace {
+
+bool isNear(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b,
+            const HypothesisParams& params) {
+  return std::hypot(a.x - b.x, a.y - b.y) < params.merge_distance &&
+         angleBetween(a.phi, b.phi) < params.merge_angle;
+}
+
+double meanOf(const std::vector<float>& values) {
+  if (values.empty()) return 0.0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// By how many standard errors the evidence `other` falls behind `best`.
+double errorsBehind(const std::vector<float>& best, const std::vector<float>& other,
+                    const BeamBlocks& blocks, double indifference) {
+  const PairedDifference difference = blocks.difference(best, other);
+  // The best is the best up to rounding.
+  return std::max(0.0, difference.mean) / std::hypot(difference.standard_error, indifference);
+}
+
+}  // namespace
+
+void HypothesisParams::check() const {
+  requirePositive("merge_distance", merge_distance);
+  requirePositive("merge_angle", merge_angle);
+  requirePositive("indifference", indifference);
+  calibration.check();
+}
+
+std::vector<RankedPose> mergeNearPoses(std::vector<RankedPose> poses,
+                                       const HypothesisParams& params) {
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const RankedPose& a, const RankedPose& b) { return a.cost < b.cost; });
+  std::vector<RankedPose> merged;
+  for (const RankedPose& pose : poses) {
+    const bool is_new = std::none_of(merged.begin(), merged.end(), [&](const RankedPose& other) {
+      return isNear(pose.refined.pose_map_beams, other.refined.pose_map_beams, params);
+    });
+    if (is_new) merged.push_back(pose);
+  }
+  return merged;
+}
+
+std::vector<Hypothesis> toHypotheses(const std::vector<RankedPose>& poses, const RangeScan& scan,
+                                     const ScanCost& cost, const HypothesisParams& params,
+                                     std::vector<std::size_t>* order) {
+  if (poses.empty()) return {};
+  std::vector<std::vector<float>> evidence;
+  std::vector<double> means;
+  PredictedRanges predicted;
+  for (const RankedPose& pose : poses) {
+    cost.predict(pose.refined.pose_map_beams, predicted);
+    evidence.push_back(beamEvidence(cost.beams(), predicted));
+    means.push_back(meanOf(evidence.back()));
+  }
+  const std::size_t best =
+      static_cast<std::size_t>(std::min_element(means.begin(), means.end()) - means.begin());
+
+  const BeamBlocks blocks(cost.beams());
+  std::vector<double> behind;
+  for (const std::vector<float>& other : evidence) {
+    behind.push_back(errorsBehind(evidence[best], other, blocks, params.indifference));
+  }
+  std::vector<std::size_t> ranks(poses.size());
+  std::iota(ranks.begin(), ranks.end(), std::size_t{0});
+  // By weight, so that a list cut short holds the likeliest; the first is the best by both.
+  std::stable_sort(ranks.begin(), ranks.end(),
+                   [&](std::size_t a, std::size_t b) { return behind[a] < behind[b]; });
+
+  std::vector<Hypothesis> hypotheses;
+  double sum = 0.0;
+  for (const std::size_t i : ranks) {
+    Hypothesis hypothesis;
+    hypothesis.pose_map_robot = scan.robotFromBeamFrame(poses[i].refined.pose_map_beams);
+    hypothesis.covariance =
+        covarianceOfRobot(poses[i].refined, scan, blocks.count(), params.calibration);
+    hypothesis.cost = poses[i].cost;
+    hypothesis.behind = behind[i];
+    hypothesis.weight = std::exp(-params.calibration.weight_decay * behind[i]);
+    sum += hypothesis.weight;
+    hypotheses.push_back(hypothesis);
+  }
+  for (Hypothesis& hypothesis : hypotheses) hypothesis.weight /= sum;
+  if (order != nullptr) *order = ranks;
+  return hypotheses;
+}
+
+}  // namespace mrpt_polyloc

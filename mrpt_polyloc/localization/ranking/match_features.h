@@ -1,0 +1,17 @@
+#pragma once
+
+#include <mrpt_polyloc/localization/ranking/MatchFeatures.h>
+#include <mrpt_polyloc/localization/ranking/RankedPose.h>
+#include <mrpt_polyloc/localization/scan/BeamBlocks.h>
+#include <mrpt_polyloc/localization/scan/ScanCost.h>
+
+#include <vector>
+
+namespace mrpt_polyloc {
+
+/// The features of the first pose. \param poses sorted by cost, at least one
+/// \param first the one that counts as the answer \param blocks of the beams of `cost`
+MatchFeatures matchFeatures(const std::vector<RankedPose>& poses, const RankedPose& first,
+                            const ScanCost& cost, const BeamBlocks& blocks);
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <mrpt_polyloc/localization/scan/PoseRefinerParams.h>
+#include <mrpt_polyloc/localization/scan/RangeScan.h>
+#include <mrpt_polyloc/visibility/RangePredictor.h>
+
+#include <mrpt/math/CMatrixFixed.h>
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace mrpt_polyloc {
+
+/// A pose moved to its local optimum.
+struct RefinedPose {
+  mrpt::math::TPose2D pose_map_beams;
+  mrpt::math::CMatrixDouble33 information;  ///< of (x, y, phi), at the optimum
+  std::size_t used_beams = 0;
+};
+
+/// Moves poses to where the scan fits best: Gauss-Newton on the distances between the hits and the
+/// lines that the map predicts the beams to hit (projective point-to-line matching), weighted
+/// robustly. Within one combination of lines the predicted range is smooth in the pose, and the
+/// derivatives are exact.
+class PoseRefiner {
+ public:
+  /// Keeps a reference to the predictor. At most `max_beams` hits, evenly chosen, are used; 0: all.
+  PoseRefiner(const RangePredictor& predictor, const RangeScan& scan,
+              const PoseRefinerParams& params = {}, std::size_t max_beams = 0);
+
+  RefinedPose refine(const mrpt::math::TPose2D& pose_map_beams) const;
+
+ private:
+  const RangePredictor* predictor_;
+  PoseRefinerParams params_;
+  std::vector<float> ranges_;
+  std::vector<double> cosines_, sines_;
+  BeamPattern pattern_;
+};
+
+}  // namespace mrpt_polyloc

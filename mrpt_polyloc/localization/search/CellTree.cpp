@@ -1,0 +1,288 @@
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/params_check.h>
+#include <mrpt_polyloc/geometry/convex_cells.h>
+#include <mrpt_polyloc/localization/search/CellTree.h>
+#include <mrpt_polyloc/localization/search/RangeBytes.h>
+#include <mrpt_polyloc/localization/search/morton_code.h>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace mrpt_polyloc {
+namespace {
+
+constexpr std::size_t kStride = CellTree::kStride;
+constexpr std::uint8_t kOpenBit = 1;
+
+/// The finest scale that tells most of a node's ranges.
+std::uint16_t scaleOf(const NodeBands& bands) {
+  constexpr std::size_t kTold = kBandBins * 97 / 100;
+  std::array<float, kBandBins> farthest;
+  for (std::size_t b = 0; b < kBandBins; ++b) {
+    farthest[b] = std::isfinite(bands[b].wall_high) ? bands[b].wall_high : bands[b].near_low;
+  }
+  std::nth_element(farthest.begin(), farthest.begin() + kTold, farthest.end());
+  std::uint16_t scale = 0;
+  while (scale + 1U < RangeBytes::kScales &&
+         static_cast<double>(farthest[kTold]) > RangeBytes::unit(scale) * RangeBytes::kGreatest) {
+    ++scale;
+  }
+  return scale;
+}
+
+/// A bound moved by what its computation in single precision may be off.
+double lessened(float range) {
+  return static_cast<double>(range) * (1.0 - 1e-5) - 1e-3;
+}
+double increased(float range) {
+  return static_cast<double>(range) * (1.0 + 1e-5) + 1e-3;
+}
+
+/// Up to an even byte, its lowest bit then saying whether an edge may be open.
+std::uint8_t withOpenBit(std::uint8_t even_or_odd, bool may_be_open) {
+  const int even = std::min((even_or_odd + 1) / 2 * 2, RangeBytes::kGreatest - 1);
+  return static_cast<std::uint8_t>(even | (may_be_open ? kOpenBit : 0));
+}
+
+/// The bins, and the first ones again to the array's end.
+template <class T>
+void repeat(T* array) {
+  std::copy_n(array, kStride - kBandBins, array + kBandBins);
+}
+
+BoundingBox boxOf(const TPoint2D* vertices, std::size_t count) {
+  BoundingBox box{vertices[0], vertices[0]};
+  for (std::size_t i = 1; i < count; ++i) {
+    box.min = {std::min(box.min.x, vertices[i].x), std::min(box.min.y, vertices[i].y)};
+    box.max = {std::max(box.max.x, vertices[i].x), std::max(box.max.y, vertices[i].y)};
+  }
+  return box;
+}
+
+BoundingBox unionOf(const BoundingBox& a, const BoundingBox& b) {
+  return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y)},
+          {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y)}};
+}
+
+}  // namespace
+
+void CellTreeParams::check() const {
+  requireInRange("cell_size", cell_size, 0.01, 10.0);
+  requireInRange("threads", threads, 0.0, 1024.0);
+}
+
+CellTree::CellTree(const Triangulation& triangulation, const RangePredictor& predictor,
+                   const CellTreeParams& params) {
+  params.check();
+  data_.cell_size = params.cell_size;
+  const BoundingBox& box = triangulation.box();
+  constexpr double kMostSquares = 1 << 30;
+  if ((box.max.x - box.min.x) * (box.max.y - box.min.y) >
+      kMostSquares * params.cell_size * params.cell_size) {
+    throw InvalidParamsError("cell_size: " + std::to_string(params.cell_size) +
+                             " gives too many cells for a map of this size");
+  }
+  layOut(predictor.index(), takeCells(triangulation, params.threads));
+  fill(predictor, params.threads);
+}
+
+CellTree::CellTree(Data data) : data_(std::move(data)) {
+  const auto require = [](bool is_met, const char* what) {
+    if (!is_met) throw InvalidMapError(std::string("cell tree: bad ") + what);
+  };
+  const std::size_t cells = data_.levels[0].nodes.size();
+  require(data_.cell_size > 0.0, "cell size");
+  require(data_.first_vertex.size() == cells + 1 && data_.first_vertex.front() == 0 &&
+              data_.first_vertex.back() == data_.vertices.size() &&
+              std::is_sorted(data_.first_vertex.begin(), data_.first_vertex.end()),
+          "polygons");
+  require(data_.views.size() == cells * kViewArrays * kStride + 1, "views");
+  for (std::size_t i = 0; i < cells; ++i) require(polygonSize(i) >= 3, "polygons");
+  for (std::size_t level = 0; level < kLevels; ++level) {
+    const Level& l = data_.levels[level];
+    require(l.boxes.size() == l.nodes.size(), "boxes");
+    require(l.codes.size() == l.nodes.size() * kArrays * kStride + 1, "arrays");
+    for (const Node& node : l.nodes) {
+      require(node.scale < RangeBytes::kScales, "scale");
+      require(level == 0 || std::size_t{node.first_child} + node.child_count <=
+                                data_.levels[level - 1].nodes.size(),
+              "children");
+    }
+  }
+}
+
+/// Cells in the order of their blocks.
+CellTree::Squares CellTree::takeCells(const Triangulation& triangulation, int threads) {
+  const ConvexCells found =
+      convexCells(triangulation, triangulation.box().min, data_.cell_size, threads);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+  for (std::size_t i = 0; i < found.cells.size(); ++i) {
+    const ConvexCells::Cell& cell = found.cells[i];
+    order.emplace_back(
+        mortonCode(static_cast<std::uint32_t>(cell.column), static_cast<std::uint32_t>(cell.row)),
+        static_cast<std::uint32_t>(i));
+  }
+  std::sort(order.begin(), order.end());
+  Squares squares;
+  data_.vertices.reserve(found.vertices.size());
+  for (const auto& [code, i] : order) {
+    const ConvexCells::Cell& cell = found.cells[i];
+    squares.emplace_back(cell.column, cell.row);
+    data_.first_vertex.push_back(static_cast<std::uint32_t>(data_.vertices.size()));
+    const auto first = found.vertices.begin() + cell.first;
+    data_.vertices.insert(data_.vertices.end(), first, first + cell.count);
+    data_.levels[0].boxes.push_back(boxOf(&data_.vertices[data_.first_vertex.back()], cell.count));
+  }
+  data_.first_vertex.push_back(static_cast<std::uint32_t>(data_.vertices.size()));
+  return squares;
+}
+
+/// The nodes of all levels, with room for their arrays.
+void CellTree::layOut(const VisibleEdgeIndex& index, Squares squares) {
+  Squares places = std::move(squares);
+  for (std::size_t cell = 0; cell < places.size(); ++cell) {
+    const std::int64_t number = index.cellNumber(middle(cell));
+    const bool has_open = number < 0 || index.cell(number).open_runs > 0;
+    data_.levels[0].nodes.push_back({0, 0, static_cast<std::uint16_t>(has_open ? 1 : 0), 0});
+  }
+  for (std::size_t level = 1; level < kLevels; ++level) {
+    const Level& below = data_.levels[level - 1];
+    Level& here = data_.levels[level];
+    Squares blocks;
+    for (std::size_t i = 0; i < below.nodes.size(); ++i) {
+      // Level 1 takes squares, of which several cells may lie in one.
+      const std::pair<std::int32_t, std::int32_t> block{places[i].first >> 1,
+                                                        places[i].second >> 1};
+      if (blocks.empty() || blocks.back() != block) {
+        blocks.push_back(block);
+        here.nodes.push_back({static_cast<std::uint32_t>(i), 0, 0, 0});
+        here.boxes.push_back(below.boxes[i]);
+      }
+      Node& node = here.nodes.back();
+      ++node.child_count;
+      node.has_open |= below.nodes[i].has_open;
+      here.boxes.back() = unionOf(here.boxes.back(), below.boxes[i]);
+    }
+    places = std::move(blocks);
+  }
+  for (Level& level : data_.levels) {
+    level.codes.resize(level.nodes.size() * kArrays * kStride + 1);  // beams read one ahead
+  }
+  data_.views.resize(data_.levels[0].nodes.size() * kViewArrays * kStride + 1);
+}
+
+void CellTree::storeBands(const NodeBands& bands, std::size_t level, std::size_t node) {
+  Level& l = data_.levels[level];
+  Node& n = l.nodes[node];
+  n.scale = scaleOf(bands);
+  std::uint8_t* const near_low = &l.codes[node * kArrays * kStride];
+  std::uint8_t* const wall_high = near_low + kStride;
+  std::uint8_t* const gap_low = wall_high + kStride;
+  std::uint8_t* const gap_high = gap_low + kStride;
+  for (std::size_t b = 0; b < kBandBins; ++b) {
+    const BinBand& band = bands[b];
+    near_low[b] = RangeBytes::down(lessened(band.near_low), n.scale);
+    wall_high[b] = RangeBytes::up(increased(band.wall_high), n.scale);
+    const std::uint8_t low =
+        band.hasGap() ? RangeBytes::up(increased(band.gap_low), n.scale) : RangeBytes::kGreatest;
+    gap_low[b] = withOpenBit(low, band.may_be_open);
+    gap_high[b] = band.hasGap() ? RangeBytes::down(lessened(band.gap_high), n.scale) : 0;
+    if (gap_high[b] <= gap_low[b]) gap_high[b] = 0;
+  }
+  for (std::size_t array = 0; array < kArrays; ++array) repeat(near_low + array * kStride);
+}
+
+void CellTree::storeView(const PredictedRanges& ranges, std::size_t cell) {
+  std::uint16_t* const near = &data_.views[cell * kViewArrays * kStride];
+  std::uint16_t* const wall = near + kStride;
+  const auto in_units = [](float range) {
+    constexpr double kMost = 65535.0;
+    return static_cast<std::uint16_t>(std::min(static_cast<double>(range) / kViewUnit, kMost));
+  };
+  for (std::size_t b = 0; b < kBandBins; ++b) {
+    near[b] = in_units(std::min(ranges.wall[b], ranges.open[b]));
+    wall[b] = in_units(ranges.wall[b]);
+  }
+  repeat(near);
+  repeat(wall);
+}
+
+void CellTree::fill(const RangePredictor& predictor, int threads) {
+  std::vector<double> bearings(kBandBins);
+  for (std::size_t b = 0; b < kBandBins; ++b) bearings[b] = static_cast<double>(b) * kBandBinWidth;
+  const BeamPattern pattern(bearings);
+  const auto build = [&](std::size_t first, std::size_t last) {
+    RangeBandFinder finder(predictor.index());
+    RangeBands cell_ranges;
+    PredictedRanges view;
+    // Depth first: what a node hands up is over windows of its own level's width.
+    const auto visit = [&](const auto& self, std::size_t level, std::size_t node,
+                           NodeBands& bands) -> void {
+      std::size_t window = 1;
+      if (level == 0) {
+        finder.find(polygon(node), polygonSize(node), cell_ranges);
+        bandsOfCell(cell_ranges, bands);
+      } else {
+        const Node& n = data_.levels[level].nodes[node];
+        NodeBands child;
+        for (std::uint32_t i = 0; i < n.child_count; ++i) {
+          self(self, level - 1, n.first_child + i, i == 0 ? bands : child);
+          if (i > 0) unite(child, 0, bands);
+        }
+        window = kWindow[level - 1];
+      }
+      for (; window < kWindow[level]; window *= 2) doubleWindow(window, bands);
+      storeBands(bands, level, node);
+      if (level > 0) return;
+      const TPoint2D p = middle(node);
+      predictor.predict({p.x, p.y, 0.0}, pattern, view);
+      storeView(view, node);
+    };
+    NodeBands bands;
+    for (std::size_t i = first; i < last; ++i) visit(visit, kLevels - 1, i, bands);
+  };
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    const tbb::blocked_range<std::size_t> all(0, data_.levels[kLevels - 1].nodes.size(), 4);
+    tbb::parallel_for(all, [&](const auto& range) { build(range.begin(), range.end()); });
+  });
+}
+
+CellTree::View CellTree::middleView(std::size_t cell) const {
+  const std::uint16_t* near = &data_.views[cell * kViewArrays * kStride];
+  return {near, near + kStride};
+}
+
+CellTree::Bands CellTree::bands(std::size_t level, std::size_t node) const {
+  const Level& l = data_.levels[level];
+  const Node& n = l.nodes[node];
+  const std::uint8_t* first = &l.codes[node * kArrays * kStride];
+  return {first,   first + kStride, first + 2 * kStride, first + 3 * kStride,
+          n.scale, n.has_open != 0};
+}
+
+TPoint2D CellTree::middle(std::size_t cell) const {
+  const TPoint2D* p = polygon(cell);
+  const std::size_t count = polygonSize(cell);
+  return std::accumulate(p, p + count, TPoint2D{0, 0}) * (1.0 / static_cast<double>(count));
+}
+
+std::size_t CellTree::bytes() const {
+  std::size_t sum = data_.vertices.size() * sizeof(TPoint2D) +
+                    data_.views.size() * sizeof(std::uint16_t) +
+                    data_.first_vertex.size() * sizeof(std::uint32_t);
+  for (const Level& level : data_.levels) {
+    sum += level.nodes.size() * sizeof(Node) + level.boxes.size() * sizeof(BoundingBox) +
+           level.codes.size();
+  }
+  return sum;
+}
+
+}  // namespace mrpt_polyloc

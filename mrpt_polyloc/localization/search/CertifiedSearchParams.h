@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+
+namespace mrpt_polyloc {
+
+struct CertifiedSearchParams {
+  /// Poses whose search cost is within this share of the least one found, plus `margin`, are kept:
+  /// the cost is noisy, and the right pose does not always have the least.
+  double margin_share = 0.1;
+  double margin = 0.01;  ///< [m]
+  /// Of the poses kept, those whose cost in the middle of their cell is within this share of the
+  /// best such cost, plus `start_margin`, are starting points for refinement.
+  double start_share = 0.3;
+  double start_margin = 0.08;        ///< [m]
+  std::size_t max_candidates = 200;  ///< the best so many of them
+  /// Nodes evaluated at most before the search stops and says up to which cost it is certified; 0:
+  /// no limit.
+  std::size_t max_nodes = 0;
+  double time_budget_ms = 0.0;  ///< the same for wall time [ms]; results then depend on the machine
+
+  /// \throws InvalidParamsError naming the bad field.
+  void check() const;
+};
+
+}  // namespace mrpt_polyloc

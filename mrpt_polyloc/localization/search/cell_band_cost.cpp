@@ -1,0 +1,167 @@
+#include <mrpt_polyloc/base/cpu_dispatch.h>
+#include <mrpt_polyloc/localization/search/cell_band_cost.h>
+#include <mrpt_polyloc/localization/search/lanes.h>
+
+namespace mrpt_polyloc {
+namespace {
+
+using lanes::Bytes, lanes::Words, lanes::Quads;
+using lanes::load, lanes::lower, lanes::raise, lanes::takeExcess, lanes::blend;
+
+constexpr std::size_t kLanes = BandQuery::kLanes;
+static_assert(kLanes == lanes::kBytes && CellTree::kStride == BandQuery::kVectors * kLanes);
+/// The entries of the last vector that still are bins; the rest of an array repeats its begin.
+constexpr lanes::FirstLanes<std::uint8_t, kBandBins % kLanes> kLast;
+
+enum class Summation {
+  bytes,   ///< of costs whose caps allow that
+  words,   ///< of any costs
+  squares  ///< of the costs' squares
+};
+
+/// Sums side by side.
+template <Summation>
+struct Sums;
+template <>
+struct Sums<Summation::bytes> {
+  Bytes sums{};
+  POLYLOC_LANES void add(const Bytes& costs) { sums += costs; }
+};
+template <>
+struct Sums<Summation::words> {
+  Words sums{};
+  POLYLOC_LANES void add(const Bytes& costs) {
+    Words pairs;
+    load(&costs, pairs);
+    sums += (pairs & 0xFF) + (pairs >> 8);
+  }
+};
+template <>
+struct Sums<Summation::squares> {
+  Quads sums{};
+  POLYLOC_LANES void add(const Bytes& costs) {
+    Words pairs;
+    load(&costs, pairs);
+    addSquares(pairs & 0xFF);
+    addSquares(pairs >> 8);
+  }
+  POLYLOC_LANES void addSquares(const Words& costs) {
+    const Words squares = costs * costs;
+    Quads pairs;
+    load(&squares, pairs);
+    sums += (pairs & 0xFFFF) + (pairs >> 16);
+  }
+};
+
+/// The bands of some bins.
+struct Bins {
+  Bytes near_low, wall_high, gap_low, gap_high, may_be_open;
+};
+
+template <bool is_in_phase>
+POLYLOC_LANES void loadBins(const CellTree::Bands& bands, std::size_t first, Bins& bins) {
+  load(bands.near_low + first, bins.near_low);
+  load(bands.wall_high + first, bins.wall_high);
+  load(bands.gap_low + first, bins.gap_low);
+  load(bands.gap_high + first, bins.gap_high);
+  bins.may_be_open = Bytes{} - (bins.gap_low & 1);
+  if (is_in_phase) return;
+  Bytes next;  // a beam may meet the next bin, too
+  load(bands.near_low + first + 1, next);
+  lower(bins.near_low, next);
+  load(bands.wall_high + first + 1, next);
+  raise(bins.wall_high, next);
+  load(bands.gap_low + first + 1, next);
+  bins.may_be_open |= Bytes{} - (next & 1);
+  raise(bins.gap_low, next);
+  load(bands.gap_high + first + 1, next);
+  lower(bins.gap_high, next);
+}
+
+/// The cases of BinBand: at most one of them costs a beam anything.
+template <bool has_open, bool has_no_returns>
+POLYLOC_LANES void costsOf(const Bins& bins, const BandQuery& query, const BandQuery::Scaled& scan,
+                           std::size_t rotated, Bytes& costs) {
+  Bytes short_range, long_range;
+  load(scan.short_range.data() + rotated, short_range);
+  load(scan.long_range.data() + rotated, long_range);
+  Bytes beyond = long_range, cap_long = Bytes{} + scan.cap_long;
+  takeExcess(beyond, bins.wall_high);
+  if (has_no_returns) {
+    Bytes no_return;
+    load(query.no_return.data() + rotated, no_return);
+    blend(no_return, Bytes{} + scan.cap_none, cap_long);
+    // Past an open edge, nothing need return.
+    if (has_open) cap_long &= ~(no_return & bins.may_be_open);
+  }
+  lower(beyond, cap_long);
+  Bytes falls_short = bins.near_low;
+  takeExcess(falls_short, short_range);
+  lower(falls_short, Bytes{} + scan.cap_short);
+  Bytes in_gap = bins.gap_high, cap_gap = Bytes{} + scan.cap_gap;
+  if (has_open) blend(bins.may_be_open, Bytes{} + scan.cap_open_gap, cap_gap);
+  takeExcess(long_range, bins.gap_low);
+  takeExcess(in_gap, short_range);
+  lower(in_gap, long_range);
+  lower(in_gap, cap_gap);
+  costs = falls_short + beyond + in_gap;
+}
+
+template <bool has_open, bool is_in_phase, bool has_no_returns, Summation summation>
+POLYLOC_LANES void boundAll(const CellTree::Bands& bands, const BandQuery& query,
+                            const std::uint32_t* headings, std::size_t count, unsigned* bounds) {
+  const BandQuery::Scaled& scan = query.scaled[bands.scale];
+  Bins bins[BandQuery::kVectors];
+  for (std::size_t v = 0; v < BandQuery::kVectors; ++v) {
+    loadBins<is_in_phase>(bands, v * kLanes, bins[v]);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    Sums<summation> sums;
+    for (std::size_t v = 0; v < BandQuery::kVectors; ++v) {
+      const std::size_t rotated = v * kLanes + kBandBins - headings[i];
+      if (!query.informs_from[rotated]) continue;
+      Bytes costs;
+      costsOf<has_open, has_no_returns>(bins[v], query, scan, rotated, costs);
+      if (v + 1 == BandQuery::kVectors) {
+        Bytes last;
+        load(kLast.mask, last);
+        costs &= last;
+      }
+      sums.add(costs);
+    }
+    bounds[i] = lanes::sumOf(sums.sums)
+                << (summation == Summation::squares ? 2 * bands.scale : bands.scale);
+  }
+}
+
+template <bool has_open, bool is_in_phase>
+POLYLOC_LANES void chooseByBeams(const CellTree::Bands& bands, const BandQuery& query,
+                                 const std::uint32_t* headings, std::size_t count,
+                                 unsigned* bounds) {
+  constexpr auto bytes = Summation::bytes, words = Summation::words, squares = Summation::squares;
+  if (query.metric == SearchMetric::polar) {
+    boundAll<has_open, is_in_phase, false, squares>(bands, query, headings, count, bounds);
+  } else if (query.has_wide_caps) {
+    boundAll<has_open, is_in_phase, true, words>(bands, query, headings, count, bounds);
+  } else if (query.has_no_returns) {
+    boundAll<has_open, is_in_phase, true, bytes>(bands, query, headings, count, bounds);
+  } else {
+    boundAll<has_open, is_in_phase, false, bytes>(bands, query, headings, count, bounds);
+  }
+}
+
+}  // namespace
+
+POLYLOC_HOT_LOOP
+void boundCosts(const CellTree::Bands& bands, const BandQuery& query, const std::uint32_t* headings,
+                std::size_t count, unsigned* bounds) {
+  if (query.is_in_phase) {
+    bands.has_open ? chooseByBeams<true, true>(bands, query, headings, count, bounds)
+                   : chooseByBeams<false, true>(bands, query, headings, count, bounds);
+  } else {
+    bands.has_open ? chooseByBeams<true, false>(bands, query, headings, count, bounds)
+                   : chooseByBeams<false, false>(bands, query, headings, count, bounds);
+  }
+}
+
+}  // namespace mrpt_polyloc

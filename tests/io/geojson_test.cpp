@@ -1,0 +1,188 @@
+#include "tests/support/map_factories.h"
+#include "tests/support/temp_file.h"
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/geojson.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace mrpt_polyloc::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+const char* const kRoom =
+    R"({"type": "Feature", "properties": {"kind": "free"}, "geometry": {"type": "Polygon",
+        "coordinates": [[[0, 0], [4, 0], [4, 3], [0, 3], [0, 0]], [[1, 1], [1, 2], [2, 1]]]}})";
+
+std::string feature(const std::string& kind, const std::string& type,
+                    const std::string& coordinates) {
+  return R"({"type": "Feature", "properties": {"kind": ")" + kind +
+         R"("}, "geometry": {"type": ")" + type + R"(", "coordinates": )" + coordinates + "}}";
+}
+
+std::string collection(const std::vector<std::string>& features) {
+  std::string text = R"({"type": "FeatureCollection", "features": [)";
+  for (std::size_t i = 0; i < features.size(); ++i) text += (i > 0 ? "," : "") + features[i];
+  return text + "]}";
+}
+
+RawMap parse(const std::vector<std::string>& features) {
+  return parseGeoJson(collection(features), "map.geojson");
+}
+
+std::string errorOf(const std::string& text) {
+  return messageOf<FormatError>([&] { parseGeoJson(text, "map.geojson"); });
+}
+
+TEST(GeoJson, ReadsFreeSpaceOpenEdgesAndWallsBeyond) {
+  const RawMap map =
+      parse({feature("open", "LineString", "[[4, 0], [4, 3], [0, 3]]"), kRoom,
+             feature("wall", "MultiLineString", "[[[9, 0], [9, 1]], [[8, 8], [7, 7]]]"),
+             feature("wall", "LineString", "[[6, 0], [6, 1], [6, 2]]"),
+             feature("free", "MultiPolygon", "[[[[10, 0], [11, 0], [11, 1]]]]")});
+  ASSERT_EQ(map.polygons.size(), 2U);
+  EXPECT_THAT(map.polygons[0].outer.kinds,
+              testing::ElementsAre(EdgeKind::wall, EdgeKind::open, EdgeKind::open, EdgeKind::wall));
+  EXPECT_EQ(map.polygons[0].holes.size(), 1U);
+  EXPECT_EQ(map.walls_beyond.size(), 3U);
+  EXPECT_EQ(map.walls_beyond[2].size(), 3U);
+}
+
+TEST(GeoJson, OpenLinesRunEitherWayAndSnap) {
+  const RawMap map =
+      parse({kRoom, feature("open", "MultiLineString",
+                            "[[[0.0000005, 0], [0, 2.9999995]], [[1, 2], [1, 1]]]")});
+  EXPECT_EQ(map.polygons[0].outer.kinds[3], EdgeKind::open);
+  EXPECT_EQ(map.polygons[0].holes[0].kinds[0], EdgeKind::open);
+  EXPECT_EQ(map.polygons[0].outer.vertices[0], TPoint2D(0, 0));  // the ring stays as it is
+}
+
+TEST(GeoJson, SnapsToTheExactVertexWhereSeveralAreNear) {
+  const RawMap map =
+      parse({feature("free", "Polygon", "[[[0, 0], [4, 0], [4, 3e-7], [4, 3], [0, 3]]]"),
+             feature("open", "LineString", "[[4, 3e-7], [4, 3]]")});
+  EXPECT_THAT(map.polygons[0].outer.kinds,
+              testing::ElementsAre(EdgeKind::wall, EdgeKind::wall, EdgeKind::open, EdgeKind::wall,
+                                   EdgeKind::wall));
+}
+
+TEST(GeoJson, OpenLinesOffTheBorderAreErrors) {
+  const auto error = [](const std::string& line) {
+    return errorOf(collection({kRoom, feature("open", "LineString", line)}));
+  };
+  EXPECT_THAT(error("[[4, 0], [4, 2.99999]]"),
+              AllOf(HasSubstr("map.geojson: features[1].geometry.coordinates[1]: "),
+                    HasSubstr("(4.000000, 2.999990) is no vertex")));
+  EXPECT_THAT(error("[[4, 0], [0, 3]]"),
+              AllOf(HasSubstr("features[1].geometry.coordinates[1]"),
+                    HasSubstr("(4.000000, 0.000000) to (0.000000, 3.000000) is no edge")));
+  EXPECT_THAT(error("[[4, 0]]"), HasSubstr("fewer than two positions"));
+  EXPECT_THAT(error("[[4, 0], [1, 1]]"), HasSubstr("no edge"));  // vertices of two rings
+  EXPECT_EQ(error("[[4, 0], [4, 3]]"), "");
+}
+
+TEST(GeoJson, ErrorsNameThePath) {
+  const auto error = [](const std::string& coordinates) {
+    return errorOf(collection({kRoom, kRoom, feature("free", "Polygon", coordinates)}));
+  };
+  EXPECT_EQ(error("[[[0, 0], [1, 0], [1, 1], [\"0\", 1]]]"),
+            "map.geojson: features[2].geometry.coordinates[0][3][0]: expected a finite number");
+  EXPECT_EQ(error("[[[0, 0], [1, 0], [1, 1], [5]]]"),
+            "map.geojson: features[2].geometry.coordinates[0][3]: a position of 1 coordinates, "
+            "expected [x, y]");
+  EXPECT_THAT(error("[[[0, 0, 0], [1, 0, 0]]]"), HasSubstr("coordinates[0][0]: a position of 3"));
+  EXPECT_THAT(error("[[[0, 0], null]]"), HasSubstr("coordinates[0][1]: expected a position"));
+  EXPECT_THAT(error("[[0, 0], [1, 0]]"), HasSubstr("coordinates[0][0]: expected a position"));
+  EXPECT_THAT(error("[5]"), HasSubstr("coordinates[0]: expected an array"));
+  EXPECT_THAT(error("7"), HasSubstr("features[2].geometry.coordinates: expected an array"));
+  EXPECT_EQ(error("[]"), "");  // an empty geometry
+}
+
+TEST(GeoJson, ErrorsNameTheFeatureOfAnUnknownKind) {
+  EXPECT_EQ(errorOf(collection({kRoom, feature("door", "LineString", "[[0, 0], [1, 1]]")})),
+            "map.geojson: features[1].properties.kind: unknown kind \"door\", expected \"free\", "
+            "\"open\" or \"wall\"");
+  EXPECT_EQ(errorOf(collection({R"({"type": "Feature", "properties": {}, "geometry": null})"})),
+            "map.geojson: features[0].properties: has no \"kind\"");
+  EXPECT_EQ(errorOf(collection({R"({"type": "Feature", "properties": null, "geometry": null})"})),
+            "map.geojson: features[0].properties: expected an object");
+  EXPECT_THAT(errorOf(collection({R"({"type": "Feature", "geometry": null})"})),
+              HasSubstr("features[0]: has no \"properties\""));
+  EXPECT_THAT(errorOf(collection({R"({"type": "Feature", "properties": {"kind": 1}})"})),
+              HasSubstr("features[0].properties.kind: expected a string"));
+  EXPECT_THAT(errorOf(collection({feature("free", "LineString", "[]")})),
+              HasSubstr("features[0].geometry.type: \"LineString\", expected \"Polygon\" or"));
+  EXPECT_THAT(errorOf(collection({feature("wall", "Polygon", "[]")})),
+              HasSubstr("expected \"LineString\" or \"MultiLineString\""));
+  EXPECT_THAT(errorOf(collection({R"({"type": "Polygon"})"})), HasSubstr("expected \"Feature\""));
+  EXPECT_THAT(errorOf(collection(
+                  {R"({"type": "Feature", "properties": {"kind": "free"}, "geometry": null})"})),
+              HasSubstr("features[0].geometry: expected an object"));
+}
+
+TEST(GeoJson, ErrorsOfTheDocument) {
+  EXPECT_EQ(errorOf(""), "map.geojson: the file is empty");
+  EXPECT_EQ(errorOf(" \n"), "map.geojson: the file is empty");
+  EXPECT_THAT(errorOf("{\n  \"type\": nan}"), HasSubstr("map.geojson: line 2, column 12: "));
+  EXPECT_THAT(errorOf(collection({kRoom}).substr(0, 100)), HasSubstr("map.geojson: line "));
+  EXPECT_THAT(errorOf("[1, 1e999]"), HasSubstr("1e999"));
+  EXPECT_THAT(errorOf("[]"), HasSubstr("expected an object"));
+  EXPECT_THAT(errorOf("{}"), HasSubstr("has no \"type\""));
+  EXPECT_THAT(errorOf(R"({"type": "Feature"})"), HasSubstr("type: expected \"FeatureCollection\""));
+  EXPECT_THAT(errorOf(R"({"type": "FeatureCollection"})"), HasSubstr("has no \"features\""));
+  EXPECT_THAT(errorOf(R"({"type": "FeatureCollection", "features": {}})"),
+              HasSubstr("features: expected an array"));
+  EXPECT_THAT(errorOf("{\"type\": \"\xff\"}"), HasSubstr("map.geojson: line 1"));
+}
+
+TEST(GeoJson, ManyBracketsAreAnErrorNotACrash) {
+  EXPECT_THAT(errorOf(std::string(1000000, '[')), HasSubstr("map.geojson: line 1"));
+  EXPECT_NE(errorOf(std::string(200000, '[') + std::string(200000, ']')), "");
+}
+
+PolygonMap roundTrip(const PolygonMap& map) {
+  const RepairedMap again = repairMap(parseGeoJson(toGeoJson(map), "map.geojson"));
+  EXPECT_TRUE(again.defects.empty());
+  return again.map;
+}
+
+TEST(GeoJson, RoundTripIsExactWithKindsAndWallsBeyond) {
+  for (const auto& [name, plain] : namedMaps()) {
+    for (const double fraction : {0.0, 0.3, 0.9, 1.0}) {
+      SCOPED_TRACE(name);
+      const PolygonMap open = withOpenEdges(plain, fraction, 5);
+      EXPECT_EQ(roundTrip(open).hash(), open.hash());
+      const PolygonMap map(open.components(),
+                           {{{100, 1.0 / 3}, {101, 2}}, {{7, 7}, {8, 8}, {9, 7}}});
+      EXPECT_EQ(roundTrip(map).hash(), map.hash());
+    }
+  }
+  const PolygonMap two({freePolygon(rectangle(0, 0, 1, 1)), freePolygon(rectangle(2, 0, 3, 1))});
+  EXPECT_EQ(roundTrip(two).hash(), two.hash());
+}
+
+TEST(GeoJson, RoundTripOfAMapWithManyOpenEdges) {
+  const PolygonMap map = withOpenEdges(largeMap(), 0.5, 1);
+  EXPECT_EQ(roundTrip(map).hash(), map.hash());
+}
+
+TEST(GeoJson, OpenEdgesAreWrittenAsMaximalRuns) {
+  Ring ring = wallRing(rectangle(0, 0, 3, 2));
+  ring.kinds = {EdgeKind::open, EdgeKind::open, EdgeKind::wall, EdgeKind::open};
+  const nlohmann::json document = nlohmann::json::parse(toGeoJson(PolygonMap({{ring, {}}})));
+  ASSERT_EQ(document["features"].size(), 2U);  // no walls beyond, no feature for them
+  const nlohmann::json& open = document["features"][1];
+  EXPECT_EQ(open["properties"]["kind"], "open");
+  EXPECT_EQ(open["geometry"]["type"], "MultiLineString");
+  EXPECT_EQ(open["geometry"]["coordinates"],
+            nlohmann::json::parse("[[[0, 2], [0, 0], [3, 0], [3, 2]]]"));
+  const nlohmann::json& free = document["features"][0]["geometry"];
+  EXPECT_EQ(free["type"], "MultiPolygon");
+  EXPECT_EQ(free["coordinates"][0][0].size(), 5U);  // closed, as RFC 7946 wants it
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc::test

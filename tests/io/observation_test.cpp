@@ -1,0 +1,188 @@
+#include "tests/support/bridge_files.h"
+#include <mrpt_polyloc/io/observation.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+
+#include <cmath>
+#include <limits>
+
+namespace mrpt_polyloc {
+namespace {
+
+using mrpt::obs::CObservation2DRangeScan;
+using testing::HasSubstr;
+
+constexpr double kPi = 3.14159265358979323846;
+
+CObservation2DRangeScan plainScan(std::size_t beams, double aperture) {
+  CObservation2DRangeScan scan;
+  scan.aperture = static_cast<float>(aperture);
+  scan.maxRange = 20.0F;
+  scan.resizeScanAndAssign(beams, 2.0F, true);
+  return scan;
+}
+
+std::string refusalOf(const CObservation2DRangeScan& scan) {
+  try {
+    toRangeScan(scan);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// MRPT's own conversion of a scan into points in the robot frame is the oracle for all conventions.
+TEST(ToRangeScan, HitsWhereMrptPutsItsPoints) {
+  std::mt19937 random(11);
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    auto observation = test::randomObservation(random, 2 + random() % 300);
+    observation.maxRange = 1000.0F;
+    mrpt::maps::CSimplePointsMap points;
+    points.insertionOptions.minDistBetweenLaserPoints = 0.0F;
+    points.insertionOptions.isPlanarMap = false;
+    points.insertionOptions.also_interpolate = false;
+    points.insertObservation(observation);
+
+    const RangeScan scan = toRangeScan(observation);
+    ASSERT_EQ(scan.beams().size(), observation.getScanSize());
+    ASSERT_EQ(points.size(), scan.hitCount());
+    std::size_t next = 0;
+    for (const Beam& beam : scan.beams()) {
+      if (beam.kind != BeamKind::hit) continue;
+      float x = 0, y = 0;
+      points.getPoint(next++, x, y);
+      EXPECT_NEAR(scan.sensor().x + beam.range * std::cos(beam.bearing), x, 1e-4);
+      EXPECT_NEAR(scan.sensor().y + beam.range * std::sin(beam.bearing), y, 1e-4);
+    }
+  }
+}
+
+TEST(ToRangeScan, SpreadsTheApertureOverTheBeamsBothEndsIncluded) {
+  auto observation = plainScan(181, kPi);
+  const RangeScan left = toRangeScan(observation);
+  EXPECT_NEAR(left.beams().front().bearing, -kPi / 2, 1e-6);
+  EXPECT_NEAR(left.beams()[90].bearing, 0.0, 1e-6);
+  EXPECT_NEAR(left.beams().back().bearing, kPi / 2, 1e-6);
+
+  observation.rightToLeft = false;
+  observation.sensorPose = mrpt::poses::CPose3D(0.3, -0.1, 0.5, 1.0, 0, 0);
+  const RangeScan right = toRangeScan(observation);
+  EXPECT_NEAR(right.beams().front().bearing, 1.0 + 0.5 * kPi, 1e-6);
+  EXPECT_NEAR(right.beams().back().bearing, 1.0 - 0.5 * kPi, 1e-6);
+  EXPECT_DOUBLE_EQ(right.sensor().x, 0.3);
+  EXPECT_DOUBLE_EQ(right.sensor().y, -0.1);
+}
+
+TEST(ToRangeScan, TellsKindsByFlagAndRange) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  struct Case {
+    float range;
+    bool valid;
+    BeamKind kind;
+    double expected;
+  };
+  const std::vector<Case> cases = {
+      {2.0F, true, BeamKind::hit, 2.0},          {19.99F, true, BeamKind::hit, 19.99},
+      {20.0F, true, BeamKind::no_return, 20.0},  {81.9F, true, BeamKind::no_return, 20.0},
+      {81.9F, false, BeamKind::no_return, 20.0}, {3.0F, false, BeamKind::no_return, 20.0},
+      {0.0F, true, BeamKind::invalid, 0.0},      {0.0F, false, BeamKind::invalid, 0.0},
+      {-1.0F, true, BeamKind::invalid, 0.0},     {nan, true, BeamKind::invalid, 0.0},
+      {nan, false, BeamKind::invalid, 0.0},      {inf, true, BeamKind::invalid, 0.0},
+      {-inf, false, BeamKind::invalid, 0.0}};
+  auto observation = plainScan(cases.size(), kPi);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    observation.setScanRange(i, cases[i].range);
+    observation.setScanRangeValidity(i, cases[i].valid);
+  }
+  const RangeScan scan = toRangeScan(observation);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    EXPECT_EQ(scan.beams()[i].kind, cases[i].kind) << i;
+    EXPECT_NEAR(scan.beams()[i].range, cases[i].expected, 1e-6) << i;
+  }
+}
+
+TEST(ToRangeScan, WithoutAMaximumRangeTheReadingStands) {
+  auto observation = plainScan(2, kPi);
+  observation.maxRange = 0.0F;
+  observation.setScanRangeValidity(1, false);
+  const RangeScan scan = toRangeScan(observation);
+  EXPECT_EQ(scan.beams()[0].kind, BeamKind::hit);
+  EXPECT_EQ(scan.beams()[1].kind, BeamKind::no_return);
+  EXPECT_DOUBLE_EQ(scan.beams()[1].range, 2.0);
+}
+
+TEST(ToRangeScan, OneBeamLooksAheadAndNoneIsAScanToo) {
+  auto observation = plainScan(1, kPi);
+  observation.sensorPose.setYawPitchRoll(0.5, 0, 0);
+  const RangeScan one = toRangeScan(observation);
+  ASSERT_EQ(one.beams().size(), 1U);
+  EXPECT_DOUBLE_EQ(one.beams()[0].bearing, 0.5);
+  EXPECT_EQ(one.hitCount(), 1U);
+  EXPECT_TRUE(toRangeScan(plainScan(0, kPi)).beams().empty());
+}
+
+TEST(ToRangeScan, KeepsStampAndLabel) {
+  auto observation = plainScan(3, kPi);
+  observation.sensorLabel = "front";
+  observation.timestamp = mrpt::Clock::fromDouble(1234567890.25);
+  EXPECT_NEAR(toRangeScan(observation).stamp(), 1234567890.25, 1e-6);
+  EXPECT_EQ(toRangeScan(observation).label(), "front");
+  observation.timestamp = INVALID_TIMESTAMP;
+  EXPECT_EQ(toRangeScan(observation).stamp(), 0.0);
+}
+
+TEST(ToRangeScan, RefusesASensorThatIsNotPlanar) {
+  auto observation = plainScan(3, kPi);
+  observation.sensorLabel = "tilted";
+  observation.sensorPose.setYawPitchRoll(0.1, 0.0009, -0.0009);
+  EXPECT_EQ(refusalOf(observation), "");
+  observation.sensorPose.setYawPitchRoll(0.1, 0.0, 0.01);
+  EXPECT_THAT(refusalOf(observation), HasSubstr("not planar"));
+  EXPECT_THAT(refusalOf(observation), HasSubstr("tilted"));
+  observation.sensorPose.setYawPitchRoll(0.1, 0.2, 0.0);
+  EXPECT_THAT(refusalOf(observation), HasSubstr("not planar"));
+  observation.sensorPose.setYawPitchRoll(0.1, 0.0, kPi);
+  EXPECT_THAT(refusalOf(observation), HasSubstr("upside down"));
+  observation.sensorPose.setYawPitchRoll(0.1, 0.0, -kPi);
+  EXPECT_THAT(refusalOf(observation), HasSubstr("upside down"));
+}
+
+TEST(ToRangeScan, RefusesWhatIsNotFinite) {
+  auto observation = plainScan(3, std::nan(""));
+  EXPECT_THAT(refusalOf(observation), HasSubstr("aperture"));
+  observation = plainScan(3, -1.0);
+  EXPECT_THAT(refusalOf(observation), HasSubstr("aperture"));
+  observation = plainScan(3, kPi);
+  observation.sensorPose.x(std::nan(""));
+  EXPECT_THAT(refusalOf(observation), HasSubstr("not finite"));
+}
+
+TEST(ToObservation, IsTheInverse) {
+  std::mt19937 random(12);
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    auto observation = test::randomObservation(random, random() % 200);
+    observation.rightToLeft = true;
+    if (observation.getScanSize() > 3) observation.setScanRange(2, 0.0F);
+    const RangeScan scan = toRangeScan(observation);
+    const RangeScan back = toRangeScan(toObservation(
+        scan, static_cast<double>(observation.aperture), observation.sensorPose.yaw(), 25.0));
+    EXPECT_TRUE(test::sameScans({scan}, {back})) << repeat;
+  }
+}
+
+TEST(ToObservation, RefusesBeamsThatAreElsewhere) {
+  const RangeScan scan(
+      {{-0.5, 1, BeamKind::hit}, {0.1, 1, BeamKind::hit}, {0.5, 1, BeamKind::hit}});
+  EXPECT_THROW(toObservation(scan, 1.0, 0.0, 10.0), std::invalid_argument);
+  const RangeScan even({{-0.5, 1, BeamKind::hit}, {0, 1, BeamKind::hit}, {0.5, 1, BeamKind::hit}});
+  EXPECT_NO_THROW(toObservation(even, 1.0, 0.0, 10.0));
+  EXPECT_THROW(toObservation(even, 1.0, 0.1, 10.0), std::invalid_argument);
+  EXPECT_THROW(toObservation(even, -1.0, 0.0, 10.0), std::invalid_argument);
+  EXPECT_THROW(toObservation(even, 1.0, 0.0, 0.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc

@@ -1,0 +1,39 @@
+#include <mrpt_polyloc/localization/scan/beam_evidence.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace mrpt_polyloc::test {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+float evidenceOf(double range, float wall, float open = kInfinity, BeamKind kind = BeamKind::hit) {
+  return beamEvidence({{0.0, range, kind}}, {{wall}, {open}}).front();
+}
+
+TEST(BeamEvidence, ByHand) {
+  EXPECT_NEAR(evidenceOf(3.0, 3.0F), 0.0, 1e-6);
+  EXPECT_NEAR(evidenceOf(2.7, 3.0F), 0.3, 1e-6);
+  EXPECT_NEAR(evidenceOf(3.4, 3.0F), 0.4, 1e-6);
+  EXPECT_NEAR(evidenceOf(9.0, 3.0F), 0.6, 1e-6);                // passes a wall: capped
+  EXPECT_NEAR(evidenceOf(2.5, 3.0F), 0.5, 1e-6);                // up to here as the cost
+  EXPECT_NEAR(evidenceOf(1.5, 4.0F), 0.5 + 0.05 * 2.0, 1e-6);   // two metres more are hidden
+  EXPECT_NEAR(evidenceOf(1.0, 30.0F), 0.5 + 0.05 * 5.0, 1e-6);  // five at most
+  EXPECT_NEAR(evidenceOf(1.0, kInfinity), 0.5 + 0.05 * 5.0, 1e-6);
+}
+
+TEST(BeamEvidence, WhatLiesPastAnOpenEdgeIsNotHidden) {
+  EXPECT_NEAR(evidenceOf(1.0, 9.0F, 3.0F), 0.5 + 0.05 * 1.5, 1e-6);
+  EXPECT_NEAR(evidenceOf(4.0, 9.0F, 3.0F), 0.25, 1e-6);
+}
+
+TEST(BeamEvidence, OfNoReturns) {
+  EXPECT_NEAR(evidenceOf(20.0, 3.0F, kInfinity, BeamKind::no_return), 0.15, 1e-6);
+  EXPECT_NEAR(evidenceOf(20.0, kInfinity, kInfinity, BeamKind::no_return), 0.0, 1e-6);
+  EXPECT_TRUE(beamEvidence({}, {}).empty());
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc::test

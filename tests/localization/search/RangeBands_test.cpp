@@ -1,0 +1,151 @@
+#include "tests/support/random_maps.h"
+#include "tests/support/simulated_scans.h"
+#include <mrpt_polyloc/geometry/convex_cells.h>
+#include <mrpt_polyloc/localization/search/RangeBands.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace mrpt_polyloc::test {
+namespace {
+
+/// A map with the bands' index over squares twice as large as the cells.
+struct MapWithBands {
+  explicit MapWithBands(PolygonMap polygon_map, double size)
+      : map(std::move(polygon_map)),
+        triangulation(map),
+        index(triangulation, 2 * size, 1),
+        cells(convexCells(triangulation, triangulation.box().min, size, 1)),
+        rays(map) {}
+
+  PolygonMap map;
+  Triangulation triangulation;
+  VisibleEdgeIndex index;
+  ConvexCells cells;
+  BruteForceRays rays;
+};
+
+/// A random point of a convex polygon, often on its border or at a vertex.
+TPoint2D pointIn(const TPoint2D* polygon, std::size_t count, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const std::size_t corners = unit(random) < 0.5 ? 2 : count;
+  const std::size_t start = random() % count;
+  double sum = 0.0;
+  TPoint2D p{0, 0};
+  for (std::size_t k = 0; k < corners; ++k) {
+    const double weight = -std::log(unit(random) + 1e-12);
+    p += polygon[(start + k) % count] * weight;
+    sum += weight;
+  }
+  return p * (1.0 / sum);
+}
+
+/// How a band holds what is seen from points of its cell.
+struct Tally {
+  std::size_t rays = 0;
+  std::size_t outside = 0;
+  std::size_t in_gaps = 0;  ///< bins that have one
+  double worst = 0.0;       ///< how far outside [m]
+};
+
+void expectWithin(double range, float low, float high, Tally& tally) {
+  // Single precision, and points rounded to the chains' grid.
+  const double slack = 1e-3 + 1e-4 * (std::isfinite(range) ? range : 0.0);
+  ++tally.rays;
+  const double off = std::max(static_cast<double>(low) - range, range - static_cast<double>(high));
+  if (!(off > slack)) return;
+  ++tally.outside;
+  tally.worst = std::max(tally.worst, off);
+}
+
+/// Nothing is first met at `range` within a gap.
+void expectOutside(double range, float low, float high, Tally& tally) {
+  const double slack = 1e-3 + 1e-4 * (std::isfinite(range) ? range : 0.0);
+  const double off = std::min(range - static_cast<double>(low), static_cast<double>(high) - range);
+  if (!(off > slack)) return;
+  ++tally.outside;
+  tally.worst = std::max(tally.worst, off);
+}
+
+Tally checkCells(const MapWithBands& built, std::size_t cells, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  RangeBandFinder finder(built.index);
+  RangeBands bands;
+  Tally tally;
+  for (std::size_t i = 0; i < cells; ++i) {
+    const auto& cell = built.cells.cells[random() % built.cells.cells.size()];
+    const TPoint2D* polygon = &built.cells.vertices[cell.first];
+    finder.find(polygon, cell.count, bands);
+    TPoint2D middle{0, 0};
+    for (std::size_t k = 0; k < cell.count; ++k) {
+      middle += polygon[k] * (1.0 / static_cast<double>(cell.count));
+    }
+    for (int k = 0; k < 60; ++k) {
+      // A little inside: on the border itself the nearest wall may be on either side.
+      const TPoint2D p = middle + (pointIn(polygon, cell.count, random) - middle) * (1.0 - 1e-5);
+      const std::size_t bin = random() % kBandBins;
+      const double angle = (static_cast<double>(bin) + unit(random)) * kBandBinWidth;
+      const RayHit hit = built.rays.cast(p, angle);
+      expectWithin(hit.wall, bands.wall_low[bin], bands.wall_high[bin], tally);
+      if (std::isfinite(hit.open)) {
+        expectWithin(hit.open, bands.open_low[bin], std::numeric_limits<float>::infinity(), tally);
+      }
+      expectWithin(std::min(hit.open, hit.wall), std::min(bands.open_low[bin], bands.wall_low[bin]),
+                   std::min(bands.open_high[bin], bands.wall_high[bin]), tally);
+      tally.in_gaps += bands.gap_high[bin] > bands.gap_low[bin];
+      expectOutside(hit.wall, bands.gap_low[bin], bands.gap_high[bin], tally);
+      expectOutside(std::min(hit.open, hit.wall), bands.gap_low[bin], bands.gap_high[bin], tally);
+    }
+  }
+  return tally;
+}
+
+TEST(RangeBands, HoldWhatIsSeenInNamedMaps) {
+  for (const auto& [name, map] : namedMaps()) {
+    for (const double open_share : {0.0, 0.4}) {
+      SCOPED_TRACE(std::string(name) + (open_share > 0 ? " with open edges" : ""));
+      const MapWithBands built(open_share > 0 ? withOpenEdges(map, open_share, 3) : map, 0.2);
+      const Tally tally = checkCells(built, 60, 1);
+      EXPECT_EQ(tally.outside, 0U) << "of " << tally.rays << ", by " << tally.worst << " m";
+    }
+  }
+}
+
+TEST(RangeBands, HoldWhatIsSeenInRandomMaps) {
+  std::mt19937 random(4);
+  std::size_t gaps = 0, rays = 0;
+  for (std::uint32_t seed = 0; seed < 16; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const MapWithBands built(floorPlan(randomParams(random), seed), seed % 2 == 0 ? 0.2 : 0.4);
+    const Tally tally = checkCells(built, 80, seed);
+    EXPECT_EQ(tally.outside, 0U) << "of " << tally.rays << ", by " << tally.worst << " m";
+    gaps += tally.in_gaps;
+    rays += tally.rays;
+  }
+  EXPECT_GT(gaps, rays / 50);  // else they were not tested
+}
+
+TEST(RangeBands, TellANearWallFromWhatIsSeenPastItsEnd) {
+  // From the left, the bin past the tip of the screen shows the screen at 2 m or the wall at 6 m.
+  const PolygonMap map = mapOf(rectangle(-4, -4, 6, 4), {rectangle(2.0, -4.0 + 1e-3, 2.05, 0.0)});
+  const MapWithBands built(map, 0.25);
+  const TPoint2D cell[] = {{-0.05, -0.05}, {0.05, -0.05}, {0.05, 0.05}, {-0.05, 0.05}};
+  RangeBands bands;
+  RangeBandFinder(built.index).find(cell, 4, bands);
+  for (const std::size_t bin : {std::size_t{0}, kBandBins - 1}) {
+    EXPECT_NEAR(bands.wall_low[bin], 1.95, 0.01);
+    EXPECT_NEAR(bands.wall_high[bin], 6.06, 0.02);
+    EXPECT_NEAR(bands.gap_low[bin], 2.1, 0.05);
+    EXPECT_NEAR(bands.gap_high[bin], 5.95, 0.01);
+  }
+  EXPECT_EQ(bands.gap_high[kBandBins / 2], 0.0F);  // one wall alone
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc::test
