@@ -3,7 +3,7 @@
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/io/wkt.h>
 #include <mrpt_polyloc/localization/exact/ExactLocalizer.h>
-#include <mrpt_polyloc/localization/exact/SeenPolygon.h>
+#include <mrpt_polyloc/localization/exact/ObservedPolygon.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ std::vector<TPoint2D> parseLine(const std::string& line, std::size_t number,
     if (vertex.norm() == 0.0) throw FormatError(path, place, "a vertex at the robot itself");
   }
   try {
-    const SeenPolygon check(vertices, ExactLocalizerParams{}.tolerance);
+    const ObservedPolygon check(vertices, ExactLocalizerParams{}.tolerance);
   } catch (const InvalidParamsError& error) {
     throw FormatError(path, place, error.what());
   }

@@ -28,9 +28,9 @@ struct Shares {
 
 Shares sharesOf(const CalibrationSample& sample, double decay) {
   double sum = 0.0, right = 0.0;
-  const double least = sample.candidates.front().behind;
+  const double least = sample.candidates.front().z_score;
   for (const CalibrationSample::Candidate& candidate : sample.candidates) {
-    const double weight = std::exp(-decay * (candidate.behind - least));
+    const double weight = std::exp(-decay * (candidate.z_score - least));
     sum += weight;
     right += candidate.right ? weight : 0.0;
   }

@@ -38,7 +38,7 @@ std::optional<CalibrationSample> calibrationSample(const LocalizationResult& res
   sample.features = *result.features;
   for (const Hypothesis& hypothesis : result.hypotheses) {
     const bool right = truth != nullptr && isRight(hypothesis.pose_map_robot, *truth, tolerance);
-    sample.candidates.push_back({hypothesis.behind, right});
+    sample.candidates.push_back({hypothesis.z_score, right});
   }
   if (sample.candidates.front().right) {
     const Hypothesis& first = result.hypotheses.front();

@@ -23,8 +23,8 @@ struct CalibrationSample {
   bool good = false;  ///< whether the scan agrees with its own map
   MatchFeatures features;
   struct Candidate {
-    double behind = 0.0;  ///< Hypothesis::behind
-    bool right = false;   ///< within the tolerance of the truth
+    double z_score = 0.0;  ///< Hypothesis::z_score
+    bool right = false;    ///< within the tolerance of the truth
   };
   std::vector<Candidate> candidates;  ///< in their order, at least one
   /// Of right first answers: squares of the errors by the stated covariance: of the position (two

@@ -66,7 +66,7 @@ struct CellLocalizer::Impl {
       cell_range = cells.range();
       viewpoints = cellViewpoints(cells, params.spacing);
     }
-    predictor.emplace(Triangulation(map), RangePredictor::kCellSize, params.threads);
+    predictor.emplace(Triangulation(map), RangePredictor::kSquareSize, params.threads);
     views.emplace(
         viewsFrom(viewpoints, *predictor, params.view.samples, params.view.range, params.threads));
   }

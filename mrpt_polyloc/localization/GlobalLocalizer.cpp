@@ -5,9 +5,9 @@
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/ranking/candidate_ranking.h>
 #include <mrpt_polyloc/localization/search/BandQuery.h>
-#include <mrpt_polyloc/localization/search/CellTree.h>
 #include <mrpt_polyloc/localization/search/CertifiedSearch.h>
 #include <mrpt_polyloc/localization/search/PoseScorer.h>
+#include <mrpt_polyloc/localization/search/SearchTree.h>
 #include <mrpt_polyloc/localization/search/search_index_file.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 
@@ -21,13 +21,13 @@ namespace {
 using mrpt::math::TPose2D;
 
 /// What a search could not exclude, as polygons and headings.
-std::vector<PoseRegion> regionsOf(const CertifiedSearchResult& found, const CellTree& cells,
+std::vector<PoseRegion> regionsOf(const CertifiedSearchResult& found, const SearchTree& tree,
                                   const BandQuery& query) {
   std::vector<PoseRegion> regions;
-  for (const RemainingCell& remaining : found.regions) {
-    const TPoint2D* polygon = cells.polygon(remaining.cell);
-    const double first = remaining.heading, window = CellTree::kWindow[0];
-    regions.push_back({{polygon, polygon + cells.polygonSize(remaining.cell)},
+  for (const RemainingLeaf& remaining : found.regions) {
+    const TPoint2D* polygon = tree.polygon(remaining.leaf);
+    const double first = remaining.heading, window = SearchTree::kWindow[0];
+    regions.push_back({{polygon, polygon + tree.polygonSize(remaining.leaf)},
                        query.heading(first),
                        query.heading(first + window),
                        static_cast<double>(remaining.bound)});
@@ -40,7 +40,7 @@ std::vector<PoseRegion> regionsOf(const CertifiedSearchResult& found, const Cell
 void GlobalLocalizerParams::check() const {
   requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e6);
   requireInRange("threads", threads, 0.0, 1024.0);
-  requireInRange("cell_size", cell_size, 0.01, 10.0);
+  requireInRange("leaf_size", leaf_size, 0.01, 10.0);
   cost.check();
   search_cost.check();
   certified.check();
@@ -53,8 +53,8 @@ struct GlobalLocalizer::Impl {
       : params(parameters),
         map(std::move(polygon_map)),
         triangulation(map),
-        predictor(triangulation, 2.0 * params.cell_size, params.threads),
-        cells(triangulation, predictor, {params.cell_size, params.threads}),
+        predictor(triangulation, 2.0 * params.leaf_size, params.threads),
+        tree(triangulation, predictor, {params.leaf_size, params.threads}),
         build_seconds(watch.seconds()) {}
 
   Impl(PolygonMap polygon_map, SearchIndex index, const GlobalLocalizerParams& parameters)
@@ -62,9 +62,9 @@ struct GlobalLocalizer::Impl {
         map(std::move(polygon_map)),
         triangulation(map),
         predictor(triangulation, std::move(index.edges)),
-        cells(std::move(index.cells)),
+        tree(std::move(index.tree)),
         build_seconds(watch.seconds()) {
-    if (predictor.index().lists().cell_size != 2.0 * cells.cellSize()) {
+    if (predictor.index().lists().square_size != 2.0 * tree.leafSize()) {
       throw InvalidMapError("index: its parts are not of one size");
     }
   }
@@ -78,7 +78,7 @@ struct GlobalLocalizer::Impl {
   PolygonMap map;
   Triangulation triangulation;
   RangePredictor predictor;
-  CellTree cells;
+  SearchTree tree;
   double build_seconds;
 };
 
@@ -87,11 +87,11 @@ std::vector<TPose2D> GlobalLocalizer::Impl::search(const RangeScan& scan, const 
   const BandQuery query(scan, params.search_cost, params.search_metric);
   const PoseScorer scorer(predictor, query, scan.sensor(), params.search_cost, params.refinement);
   const CertifiedSearchResult found =
-      searchCells(cells, query, prior, scan.sensor(), scorer, params.certified);
-  result.statistics.positions = cells.nodes(0).size();
+      searchTree(tree, query, prior, scan.sensor(), scorer, params.certified);
+  result.statistics.positions = tree.nodes(0).size();
   result.statistics.evaluated = found.evaluated;
   result.certificate = Certificate{found.certified_cost, found.is_complete, found.regions.size()};
-  if (params.keep_regions) result.regions = regionsOf(found, cells, query);
+  if (params.keep_regions) result.regions = regionsOf(found, tree, query);
   std::vector<TPose2D> poses;
   for (const PoseCandidate& candidate : found.candidates) poses.push_back(candidate.pose_map_beams);
   return poses;
@@ -120,10 +120,10 @@ const PolygonMap& GlobalLocalizer::map() const {
   return impl_->map;
 }
 std::size_t GlobalLocalizer::indexBytes() const {
-  return impl_->cells.bytes() + impl_->predictor.index().bytes();
+  return impl_->tree.bytes() + impl_->predictor.index().bytes();
 }
 std::string GlobalLocalizer::serializedIndex() const {
-  return serializeIndex(impl_->predictor.index().lists(), impl_->cells.data(), impl_->map.hash());
+  return serializeIndex(impl_->predictor.index().lists(), impl_->tree.data(), impl_->map.hash());
 }
 double GlobalLocalizer::indexBuildSeconds() const {
   return impl_->build_seconds;

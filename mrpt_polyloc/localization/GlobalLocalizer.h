@@ -19,9 +19,9 @@ namespace mrpt_polyloc {
 struct GlobalLocalizerParams {
   std::size_t max_hypotheses = 20;  ///< at most so many are returned
   int threads = 0;                  ///< for building the index; 0: all cores
-  /// Side of the finest cells [m]. Smaller ones are bounded more tightly; time of building and
+  /// Side of the finest leaves [m]. Smaller ones are bounded more tightly; time of building and
   /// memory grow with the inverse square.
-  double cell_size = 0.25;
+  double leaf_size = 0.25;
   /// Whether the result lists what could not be excluded.
   bool keep_regions = false;
   /// Scans with fewer hits are not searched for: so few fit almost everywhere.
@@ -47,7 +47,7 @@ class GlobalLocalizer {
  public:
   /// \throws InvalidParamsError
   explicit GlobalLocalizer(PolygonMap map, GlobalLocalizerParams params = {});
-  /// With an index made before, `params.cell_size` then being the index's.
+  /// With an index made before, `params.leaf_size` then being the index's.
   /// \param file its name, for messages
   /// \throws FormatError if the content is not the index of this map, see parseIndex()
   GlobalLocalizer(PolygonMap map, const std::string& index, const std::string& file,

@@ -235,7 +235,7 @@ std::vector<double> scanLogLikelihoods(const RangePredictor& predictor,
   order.reserve(poses_map_robot.size());
   for (const mrpt::math::TPose2D& pose : poses_map_robot) {
     poses.push_back(prepared.origin->beamFrameFromRobot(pose));
-    order.emplace_back(predictor.index().cellNumber({poses.back().x, poses.back().y}),
+    order.emplace_back(predictor.index().squareNumber({poses.back().x, poses.back().y}),
                        order.size());
   }
   std::sort(order.begin(), order.end());

@@ -73,8 +73,8 @@ struct RangePredictor::Workspace {
   HitColumns hits;
 };
 
-RangePredictor::RangePredictor(const Triangulation& triangulation, double cell_size, int threads)
-    : box_(triangulation.box()), index_(triangulation, cell_size, threads) {}
+RangePredictor::RangePredictor(const Triangulation& triangulation, double square_size, int threads)
+    : box_(triangulation.box()), index_(triangulation, square_size, threads) {}
 
 RangePredictor::RangePredictor(const Triangulation& triangulation, VisibleEdgeIndex::Lists lists)
     : box_(triangulation.box()), index_(triangulation, std::move(lists)) {}
@@ -83,7 +83,7 @@ RangePredictor::RangePredictor(const Triangulation& triangulation, VisibleEdgeIn
 /// triangulated box), and writes those to the first open edges to `open` unless that is null; it
 /// stays empty where there are none.
 template <class Depths>
-void RangePredictor::look(const mrpt::math::TPose2D& pose, std::int64_t cell,
+void RangePredictor::look(const mrpt::math::TPose2D& pose, std::int64_t square,
                           const BeamPattern& beams, Workspace& w, Depths& wall,
                           FloatBlocks* open) const {
   if (open != nullptr) open->assign(0, 0.0F);
@@ -92,20 +92,20 @@ void RangePredictor::look(const mrpt::math::TPose2D& pose, std::int64_t cell,
   if (!is_known) return;
   const BoundaryChains& chains = index_.chains();
   const ViewFrame frame = frameOf(pose, chains);
-  VisibleEdgeIndex::Cell seen{chains.walls().data(), chains.walls().size(), chains.open().data(),
-                              chains.open().size()};
-  if (cell >= 0) seen = index_.cell(cell);
+  VisibleEdgeIndex::EdgeRuns seen{chains.walls().data(), chains.walls().size(),
+                                  chains.open().data(), chains.open().size()};
+  if (square >= 0) seen = index_.edgeRuns(square);
   raiseDepths(chains, seen.walls, seen.wall_runs, frame, beams, w.depths, wall);
   if (open == nullptr || seen.open_runs == 0) return;
   open->assign(beams.size(), 0.0F);
   raiseDepths(chains, seen.open, seen.open_runs, frame, beams, w.depths, *open);
 }
 
-void RangePredictor::predict(const mrpt::math::TPose2D& pose, std::int64_t cell,
+void RangePredictor::predict(const mrpt::math::TPose2D& pose, std::int64_t square,
                              const BeamPattern& beams, Workspace& w, float* wall,
                              float* open) const {
   w.wall.assign(beams.size(), 0.0F);
-  look(pose, cell, beams, w, w.wall, &w.open);
+  look(pose, square, beams, w, w.wall, &w.open);
   takeWallRanges(beams, w.wall.data(), wall);
   takeOpenRanges(beams, w.wall.data(), w.open.data(), open);
 }
@@ -116,7 +116,7 @@ void RangePredictor::predict(const mrpt::math::TPose2D& pose_map_beams, const Be
   for (auto* column : {&out.along, &out.across}) column->resize(n);
   Workspace& w = workspace();
   for (auto* column : {&w.hits.inverse, &w.hits.along, &w.hits.across}) column->assign(n, 0.0F);
-  look(pose_map_beams, index_.cellNumber({pose_map_beams.x, pose_map_beams.y}), beams, w, w.hits,
+  look(pose_map_beams, index_.squareNumber({pose_map_beams.x, pose_map_beams.y}), beams, w, w.hits,
        nullptr);
   for (std::size_t i = 0; i < n; ++i) {
     out.along[beams.order()[i]] = w.hits.along[i];
@@ -133,7 +133,7 @@ void RangePredictor::predict(const mrpt::math::TPose2D& pose_map_beams, const Be
                              PredictedRanges& out) const {
   out.wall.resize(beams.size());
   out.open.resize(beams.size());
-  predict(pose_map_beams, index_.cellNumber({pose_map_beams.x, pose_map_beams.y}), beams,
+  predict(pose_map_beams, index_.squareNumber({pose_map_beams.x, pose_map_beams.y}), beams,
           workspace(), out.wall.data(), out.open.data());
 }
 
@@ -142,19 +142,19 @@ void RangePredictor::predict(const std::vector<mrpt::math::TPose2D>& poses,
   const std::size_t n = beams.size();
   out.wall.resize(poses.size() * n);
   out.open.resize(poses.size() * n);
-  std::vector<std::int64_t> cells(poses.size());
-  std::transform(poses.begin(), poses.end(), cells.begin(), [this](const auto& pose) {
-    return index_.cellNumber({pose.x, pose.y});
+  std::vector<std::int64_t> squares(poses.size());
+  std::transform(poses.begin(), poses.end(), squares.begin(), [this](const auto& pose) {
+    return index_.squareNumber({pose.x, pose.y});
   });
   std::vector<std::size_t> order(poses.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  if (!std::is_sorted(cells.begin(), cells.end())) {
+  if (!std::is_sorted(squares.begin(), squares.end())) {
     std::stable_sort(order.begin(), order.end(),
-                     [&cells](std::size_t a, std::size_t b) { return cells[a] < cells[b]; });
+                     [&squares](std::size_t a, std::size_t b) { return squares[a] < squares[b]; });
   }
   Workspace& memory = workspace();
   for (const std::size_t i : order) {
-    predict(poses[i], cells[i], beams, memory, out.wall.data() + i * n, out.open.data() + i * n);
+    predict(poses[i], squares[i], beams, memory, out.wall.data() + i * n, out.open.data() + i * n);
   }
 }
 

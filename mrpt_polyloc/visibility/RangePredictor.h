@@ -35,14 +35,15 @@ struct PredictedHits {
 /// Single precision: within 1e-5 of the range, except for beams that pass a vertex, or meet a wall,
 /// within some 1e-6 rad.
 /// Cost: a few ns per listed edge and 0.1 ns per covered beam. Const and thread-safe. A pose
-/// outside the indexed cells is answered from all edges, more slowly.
+/// outside the indexed squares is answered from all edges, more slowly.
 class RangePredictor {
  public:
-  /// Side of the cells [m]: the measured optimum between long lists and many cells on floor plans.
-  static constexpr double kCellSize = 0.5;
+  /// Side of the squares [m]: the measured optimum between long lists and many squares on floor
+  /// plans.
+  static constexpr double kSquareSize = 0.5;
 
   /// Keeps no reference to the triangulation. \param threads for the index; 0: all cores
-  explicit RangePredictor(const Triangulation& triangulation, double cell_size = kCellSize,
+  explicit RangePredictor(const Triangulation& triangulation, double square_size = kSquareSize,
                           int threads = 0);
 
   /// With lists found before. \throws InvalidMapError unless they may be those of the map
@@ -67,9 +68,9 @@ class RangePredictor {
   struct Workspace;
   static Workspace& workspace();  ///< of the calling thread, kept between calls
   template <class Depths>
-  void look(const mrpt::math::TPose2D& pose, std::int64_t cell, const BeamPattern& beams,
+  void look(const mrpt::math::TPose2D& pose, std::int64_t square, const BeamPattern& beams,
             Workspace& workspace, Depths& wall, FloatBlocks* open) const;
-  void predict(const mrpt::math::TPose2D& pose, std::int64_t cell, const BeamPattern& beams,
+  void predict(const mrpt::math::TPose2D& pose, std::int64_t square, const BeamPattern& beams,
                Workspace& workspace, float* wall, float* open) const;
 
   BoundingBox box_;

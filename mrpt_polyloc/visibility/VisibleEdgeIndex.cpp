@@ -31,14 +31,14 @@ bool overlap(const Triangulation& t, const Triangulation::Face& face, const Squa
 
 }  // namespace
 
-VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, double cell_size,
+VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, double square_size,
                                    int threads)
-    : VisibleEdgeIndex(triangulation, triangulation.wallsAlone(), cell_size, threads) {}
+    : VisibleEdgeIndex(triangulation, triangulation.wallsAlone(), square_size, threads) {}
 
 VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, const Triangulation& walls,
-                                   double cell_size, int threads)
+                                   double square_size, int threads)
     : chains_(triangulation, walls) {
-  layGrid(triangulation.box(), cell_size);
+  layGrid(triangulation.box(), square_size);
   const std::size_t lists = numberLists(triangulation);
   const auto seen_walls = findRuns(walls, lists, threads, [this](std::size_t face, std::size_t i) {
     return chains_.wallNumber(face, i);
@@ -58,36 +58,36 @@ VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, const Tri
 
 VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, Lists lists)
     : chains_(triangulation, triangulation.wallsAlone()) {
-  layGrid(triangulation.box(), lists.cell_size);
+  layGrid(triangulation.box(), lists.square_size);
   lists_ = std::move(lists);
   const auto require = [](bool is_met) {
     if (!is_met) throw InvalidMapError("index of visible edges: not of this map");
   };
-  require(lists_.of_cell.size() ==
+  require(lists_.of_square.size() ==
           static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   require(lists_.begin.size() % 2 == 1 && lists_.begin.front() == 0 &&
           lists_.begin.back() == lists_.runs.size() &&
           std::is_sorted(lists_.begin.begin(), lists_.begin.end()));
   const auto count = static_cast<std::int32_t>(lists_.begin.size() / 2);
-  for (const std::int32_t list : lists_.of_cell) require(list >= -1 && list < count);
+  for (const std::int32_t list : lists_.of_square) require(list >= -1 && list < count);
   for (const Run& run : lists_.runs) {
     require(std::size_t{run.first} + run.edges < chains_.vertexCount());
   }
 }
 
 /// \throws InvalidParamsError
-void VisibleEdgeIndex::layGrid(const BoundingBox& box, double cell_size) {
-  if (!(cell_size > 0.0)) {
-    throw InvalidParamsError("cell_size: " + std::to_string(cell_size) + " is not positive");
+void VisibleEdgeIndex::layGrid(const BoundingBox& box, double square_size) {
+  if (!(square_size > 0.0)) {
+    throw InvalidParamsError("square_size: " + std::to_string(square_size) + " is not positive");
   }
   corner_ = box.min;
-  lists_.cell_size = cell_size;
-  const double columns = std::floor((box.max.x - box.min.x) / cell_size) + 1;
-  const double rows = std::floor((box.max.y - box.min.y) / cell_size) + 1;
-  constexpr double kMostCells = 1 << 30;
-  if (columns * rows > kMostCells) {
-    throw InvalidParamsError("cell_size: " + std::to_string(cell_size) +
-                             " gives too many cells for a map of this size");
+  lists_.square_size = square_size;
+  const double columns = std::floor((box.max.x - box.min.x) / square_size) + 1;
+  const double rows = std::floor((box.max.y - box.min.y) / square_size) + 1;
+  constexpr double kMostSquares = 1 << 30;
+  if (columns * rows > kMostSquares) {
+    throw InvalidParamsError("square_size: " + std::to_string(square_size) +
+                             " gives too many squares for a map of this size");
   }
   columns_ = static_cast<int>(columns);
   rows_ = static_cast<int>(rows);
@@ -104,10 +104,10 @@ void VisibleEdgeIndex::forEachOverlap(const Triangulation& t, Visitor&& visit) c
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
     const auto column = [this](double x) {
-      return std::clamp(static_cast<int>((x - corner_.x) / lists_.cell_size), 0, columns_ - 1);
+      return std::clamp(static_cast<int>((x - corner_.x) / lists_.square_size), 0, columns_ - 1);
     };
     const auto row = [this](double y) {
-      return std::clamp(static_cast<int>((y - corner_.y) / lists_.cell_size), 0, rows_ - 1);
+      return std::clamp(static_cast<int>((y - corner_.y) / lists_.square_size), 0, rows_ - 1);
     };
     for (int r = row(low.y); r <= row(high.y); ++r) {
       for (int c = column(low.x); c <= column(high.x); ++c) visit(f, c, r);
@@ -116,10 +116,10 @@ void VisibleEdgeIndex::forEachOverlap(const Triangulation& t, Visitor&& visit) c
 }
 
 Square VisibleEdgeIndex::square(int column, int row) const {
-  // A little larger than the cell: rounding may put a point of the border on the other side.
-  return {
-      {corner_.x + (column + 0.5) * lists_.cell_size, corner_.y + (row + 0.5) * lists_.cell_size},
-      (0.5 + 1e-6) * lists_.cell_size};
+  // A little larger than the square: rounding may put a point of the border on the other side.
+  return {{corner_.x + (column + 0.5) * lists_.square_size,
+           corner_.y + (row + 0.5) * lists_.square_size},
+          (0.5 + 1e-6) * lists_.square_size};
 }
 
 std::size_t VisibleEdgeIndex::numberLists(const Triangulation& t) {
@@ -133,7 +133,7 @@ std::size_t VisibleEdgeIndex::numberLists(const Triangulation& t) {
     char& touches = touches_free[number(column, row)];
     if (!touches && t.faces()[f].is_free) touches = overlap(t, t.faces()[f], square(column, row));
   });
-  lists_.of_cell.assign(touches_free.size(), -1);
+  lists_.of_square.assign(touches_free.size(), -1);
   std::int32_t lists = 0;
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
@@ -143,7 +143,7 @@ std::size_t VisibleEdgeIndex::numberLists(const Triangulation& t) {
           near_free |= touches_free[number(c, r)] != 0;
         }
       }
-      if (near_free) lists_.of_cell[number(column, row)] = lists++;
+      if (near_free) lists_.of_square[number(column, row)] = lists++;
     }
   }
   return static_cast<std::size_t>(lists);
@@ -156,8 +156,8 @@ std::vector<std::vector<VisibleEdgeIndex::Run>> VisibleEdgeIndex::findRuns(
   std::vector<std::vector<std::int32_t>> faces(lists);
   forEachOverlap(t, [&](std::size_t f, int column, int row) {
     const std::int32_t list =
-        lists_.of_cell[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                       static_cast<std::size_t>(column)];
+        lists_.of_square[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                         static_cast<std::size_t>(column)];
     if (list < 0) return;
     const auto i = static_cast<std::size_t>(list);
     squares[i] = square(column, row);
@@ -215,22 +215,22 @@ std::vector<VisibleEdgeIndex::Run> VisibleEdgeIndex::runsOf(
   return runs;
 }
 
-std::int64_t VisibleEdgeIndex::cellNumber(const TPoint2D& point) const {
-  const double column = std::floor((point.x - corner_.x) / lists_.cell_size);
-  const double row = std::floor((point.y - corner_.y) / lists_.cell_size);
+std::int64_t VisibleEdgeIndex::squareNumber(const TPoint2D& point) const {
+  const double column = std::floor((point.x - corner_.x) / lists_.square_size);
+  const double row = std::floor((point.y - corner_.y) / lists_.square_size);
   if (!(column >= 0 && row >= 0 && column < columns_ && row < rows_)) return -1;
-  return lists_.of_cell[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                        static_cast<std::size_t>(column)];
+  return lists_.of_square[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                          static_cast<std::size_t>(column)];
 }
 
-VisibleEdgeIndex::Cell VisibleEdgeIndex::cell(std::int64_t number) const {
+VisibleEdgeIndex::EdgeRuns VisibleEdgeIndex::edgeRuns(std::int64_t number) const {
   const std::uint32_t* begin = &lists_.begin[2 * static_cast<std::size_t>(number)];
   const Run* runs = lists_.runs.data();
   return {runs + begin[0], begin[1] - begin[0], runs + begin[1], begin[2] - begin[1]};
 }
 
 std::size_t VisibleEdgeIndex::bytes() const {
-  return chains_.bytes() + lists_.of_cell.size() * sizeof(std::int32_t) +
+  return chains_.bytes() + lists_.of_square.size() * sizeof(std::int32_t) +
          lists_.begin.size() * sizeof(std::uint32_t) + lists_.runs.size() * sizeof(Run);
 }
 

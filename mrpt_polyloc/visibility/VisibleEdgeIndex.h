@@ -10,42 +10,44 @@
 
 namespace mrpt_polyloc {
 
-/// For every square cell of a grid over the free space, the edges that may be seen from some point
-/// of it: a superset, so that a depth buffer over the list gives the exact view. Lists are runs of
-/// BoundaryChains. Built on several threads with one result.
+/// For every square square of a grid over the free space, the edges that may be seen from some
+/// point of it: a superset, so that a depth buffer over the list gives the exact view. Lists are
+/// runs of BoundaryChains. Built on several threads with one result.
 class VisibleEdgeIndex {
  public:
   using Run = BoundaryChains::Run;
   /// Runs of walls, then of open edges seen from their free side.
-  struct Cell {
+  struct EdgeRuns {
     const Run* walls;
     std::size_t wall_runs;
     const Run* open;
     std::size_t open_runs;
   };
 
-  /// \param cell_size side of the cells [m], > 0
+  /// \param square_size side of the squares [m], > 0
   /// \param threads 0: all cores
-  /// \throws InvalidParamsError for a cell size that is not positive, or gives more than 2^30 cells
-  VisibleEdgeIndex(const Triangulation& triangulation, double cell_size, int threads = 0);
+  /// \throws InvalidParamsError for a square size that is not positive, or gives more than 2^30
+  /// squares
+  VisibleEdgeIndex(const Triangulation& triangulation, double square_size, int threads = 0);
 
   /// What takes long to find, to be stored.
   struct Lists {
-    double cell_size = 0.0;             ///< [m]
-    std::vector<std::int32_t> of_cell;  ///< number of a cell's lists, -1 if not indexed
-    std::vector<std::uint32_t> begin;   ///< into `runs`: walls at 2 i, open edges at 2 i + 1
+    double square_size = 0.0;             ///< [m]
+    std::vector<std::int32_t> of_square;  ///< number of a square's lists, -1 if not indexed
+    std::vector<std::uint32_t> begin;     ///< into `runs`: walls at 2 i, open edges at 2 i + 1
     std::vector<Run> runs;
   };
   /// \throws InvalidMapError unless the lists may be those of the triangulation's map
   VisibleEdgeIndex(const Triangulation& triangulation, Lists lists);
   const Lists& lists() const { return lists_; }
 
-  /// Whether a point lies in a cell that is indexed: all cells that touch free space are, and those
-  /// next to them.
-  bool covers(const TPoint2D& point) const { return cellNumber(point) >= 0; }
-  /// The number of the cell that holds a point (cells in a row are consecutive), -1 if not indexed.
-  std::int64_t cellNumber(const TPoint2D& point) const;
-  Cell cell(std::int64_t number) const;
+  /// Whether a point lies in a square that is indexed: all squares that touch free space are, and
+  /// those next to them.
+  bool covers(const TPoint2D& point) const { return squareNumber(point) >= 0; }
+  /// The number of the square that holds a point (squares in a row are consecutive), -1 if not
+  /// indexed.
+  std::int64_t squareNumber(const TPoint2D& point) const;
+  EdgeRuns edgeRuns(std::int64_t number) const;
 
   const BoundaryChains& chains() const { return chains_; }
   /// Memory held, that of the chains included.
@@ -56,19 +58,19 @@ class VisibleEdgeIndex {
   template <class Visitor>
   void forEachOverlap(const Triangulation& t, Visitor&& visit) const;
   Square square(int column, int row) const;
-  /// Numbers the cells to be indexed; returns how many there are.
+  /// Numbers the squares to be indexed; returns how many there are.
   std::size_t numberLists(const Triangulation& t);
-  /// The runs seen from each indexed cell, given the numbers of a triangulation's edges.
+  /// The runs seen from each indexed square, given the numbers of a triangulation's edges.
   template <class Numbers>
   std::vector<std::vector<Run>> findRuns(const Triangulation& t, std::size_t lists, int threads,
                                          const Numbers& number) const;
   std::vector<Run> runsOf(std::vector<std::uint32_t>& numbers) const;
-  VisibleEdgeIndex(const Triangulation& triangulation, const Triangulation& walls, double cell_size,
-                   int threads);
-  void layGrid(const BoundingBox& box, double cell_size);
+  VisibleEdgeIndex(const Triangulation& triangulation, const Triangulation& walls,
+                   double square_size, int threads);
+  void layGrid(const BoundingBox& box, double square_size);
 
   BoundaryChains chains_;
-  TPoint2D corner_;  ///< lower left, of cell (0, 0)
+  TPoint2D corner_;  ///< lower left, of square (0, 0)
   int columns_, rows_;
   Lists lists_;
 };

@@ -54,7 +54,7 @@ std::vector<TPose2D> sortedPoses(const Triangulation& triangulation,
     if (triangulation.isFree(p)) poses.emplace_back(p.x, p.y, heading(random));
   }
   std::sort(poses.begin(), poses.end(), [&](const TPose2D& a, const TPose2D& b) {
-    return predictor.index().cellNumber({a.x, a.y}) < predictor.index().cellNumber({b.x, b.y});
+    return predictor.index().squareNumber({a.x, a.y}) < predictor.index().squareNumber({b.x, b.y});
   });
   return poses;
 }
@@ -96,7 +96,7 @@ double mrptSecondsPerPose(const Triangulation& triangulation, const std::vector<
 double meanListLength(const RangePredictor& predictor, const std::vector<TPose2D>& poses) {
   std::size_t sum = 0;
   for (const TPose2D& pose : poses) {
-    const auto cell = predictor.index().cell(predictor.index().cellNumber({pose.x, pose.y}));
+    const auto cell = predictor.index().edgeRuns(predictor.index().squareNumber({pose.x, pose.y}));
     for (std::size_t i = 0; i < cell.wall_runs; ++i) sum += cell.walls[i].edges;
     for (std::size_t i = 0; i < cell.open_runs; ++i) sum += cell.open[i].edges;
   }
@@ -125,7 +125,7 @@ void predictPoses(benchmark::State& state, const PolygonMap& map, std::size_t be
   triangulate = secondsOf([&] { triangulation = std::make_unique<Triangulation>(map); });
   std::unique_ptr<RangePredictor> predictor;
   build = secondsOf([&] {
-    predictor = std::make_unique<RangePredictor>(*triangulation, RangePredictor::kCellSize, 1);
+    predictor = std::make_unique<RangePredictor>(*triangulation, RangePredictor::kSquareSize, 1);
   });
   const std::vector<TPose2D> poses = sortedPoses(*triangulation, *predictor, 10000);
   const BeamPattern pattern(fan(beams, beams == 360 ? 2 * kPi : kPi));

@@ -33,13 +33,13 @@ CalibrationSample drawOwn(Random& random, std::size_t map) {
   double sum = 0.0;
   for (int i = 0; i < 4; ++i) {
     sample.candidates.push_back({i == 0 ? 0.0 : random.uniform(0.0, 3.0), false});
-    sum += std::exp(-kTrueDecay * sample.candidates.back().behind);
+    sum += std::exp(-kTrueDecay * sample.candidates.back().z_score);
   }
   std::sort(sample.candidates.begin(), sample.candidates.end(),
-            [](const auto& a, const auto& b) { return a.behind < b.behind; });
+            [](const auto& a, const auto& b) { return a.z_score < b.z_score; });
   double lot = random.uniform(0.0, sum);
   for (auto& candidate : sample.candidates) {
-    lot -= std::exp(-kTrueDecay * candidate.behind);
+    lot -= std::exp(-kTrueDecay * candidate.z_score);
     candidate.right = lot < 0.0;
     if (candidate.right) break;
   }
@@ -72,7 +72,7 @@ std::vector<CalibrationSample> drawSamples(std::uint64_t seed, std::size_t maps 
 
 double firstShare(const CalibrationSample& sample, double decay) {
   double sum = 0.0;
-  for (const auto& candidate : sample.candidates) sum += std::exp(-decay * candidate.behind);
+  for (const auto& candidate : sample.candidates) sum += std::exp(-decay * candidate.z_score);
   return 1.0 / sum;
 }
 
@@ -98,7 +98,7 @@ TEST(FitCalibration, TheDecayIsTheLikeliest) {
       if (sample.origin != ScanOrigin::own) continue;
       for (const auto& candidate : sample.candidates) {
         if (candidate.right) {
-          sum += at * candidate.behind - std::log(firstShare(sample, at));
+          sum += at * candidate.z_score - std::log(firstShare(sample, at));
         }
       }
     }

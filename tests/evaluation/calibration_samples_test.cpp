@@ -17,7 +17,7 @@ LocalizationResult resultOf(const std::vector<TPose2D>& poses) {
     hypothesis.covariance(0, 0) = 0.01;
     hypothesis.covariance(1, 1) = 0.04;
     hypothesis.covariance(2, 2) = 0.0025;
-    hypothesis.behind = static_cast<double>(result.hypotheses.size());
+    hypothesis.z_score = static_cast<double>(result.hypotheses.size());
     result.hypotheses.push_back(hypothesis);
   }
   return result;
@@ -32,7 +32,7 @@ TEST(CalibrationSample, TellsRightFromWrong) {
   EXPECT_FALSE(sample->candidates[0].right);
   EXPECT_TRUE(sample->candidates[1].right);
   EXPECT_FALSE(sample->candidates[2].right);
-  EXPECT_EQ(sample->candidates[2].behind, 2.0);
+  EXPECT_EQ(sample->candidates[2].z_score, 2.0);
   EXPECT_EQ(sample->features.seen, 0.8);
   EXPECT_FALSE(sample->position_square.has_value());
 }

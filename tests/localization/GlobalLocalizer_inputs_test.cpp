@@ -116,7 +116,7 @@ TEST(GlobalLocalizerParams, ChecksNameTheField) {
   EXPECT_THAT(complaint([](auto& p) { p.max_hypotheses = 0; }), HasSubstr("max_hypotheses"));
   EXPECT_THAT(complaint([](auto& p) { p.threads = -1; }), HasSubstr("threads"));
   for (const double bad : {0.0, -0.1, 11.0, std::nan("")}) {
-    EXPECT_THAT(complaint([bad](auto& p) { p.cell_size = bad; }), HasSubstr("cell_size"));
+    EXPECT_THAT(complaint([bad](auto& p) { p.leaf_size = bad; }), HasSubstr("leaf_size"));
   }
   EXPECT_THAT(complaint([](auto& p) { p.cost.tau_long = -1; }), HasSubstr("tau_long"));
   EXPECT_THAT(complaint([](auto& p) { p.certified.margin = -1; }), HasSubstr("margin"));

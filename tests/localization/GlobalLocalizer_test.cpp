@@ -57,7 +57,7 @@ TEST_F(InAsymmetricRoom, ACleanScanHasOnePose) {
 
 TEST_F(InAsymmetricRoom, StatisticsAndIndexSayWhatWasDone) {
   const auto result = localizer().localize(simulatedScan(asymmetricRoom(), {1.5, 2, 0.3}));
-  // 29.08 m2 in cells of a quarter of a metre, and pieces of them along the borders.
+  // 29.08 m2 in leaves of a quarter of a metre, and pieces of them along the borders.
   const double squares = localizer().map().area() / (0.25 * 0.25);
   EXPECT_GE(static_cast<double>(result.statistics.positions), squares);
   EXPECT_LT(static_cast<double>(result.statistics.positions), 1.3 * squares);
@@ -264,7 +264,7 @@ TEST(GlobalLocalizer, OnRandomBuildingsTheTruthIsAmongTheAnswers) {
 
 TEST(GlobalLocalizer, ATinyRoomOfANarrowMap) {
   const PolygonMap map({freePolygon(rectangle(0, 0, 6, 4)),
-                        freePolygon(rectangle(6.52, 1, 6.57, 1.06)),  // smaller than a cell
+                        freePolygon(rectangle(6.52, 1, 6.57, 1.06)),  // smaller than a leaf
                         freePolygon(rectangle(8, 0, 8.4, 0.3))});
   // Walls 0.3 m apart hold a heading badly, as chance fits do: here the search alone is asked.
   GlobalLocalizerParams params = oneThread();

@@ -59,8 +59,8 @@ bool holds(const PoseRegion& region, const TPose2D& pose) {
       std::abs(std::remainder(turn, 2 * kPi)) > 1e-6) {
     return false;
   }
-  for (std::size_t i = 0; i < region.cell.size(); ++i) {
-    const TPoint2D &a = region.cell[i], &b = region.cell[(i + 1) % region.cell.size()];
+  for (std::size_t i = 0; i < region.polygon.size(); ++i) {
+    const TPoint2D &a = region.polygon[i], &b = region.polygon[(i + 1) % region.polygon.size()];
     const double side = (b.x - a.x) * (pose.y - a.y) - (b.y - a.y) * (pose.x - a.x);
     if (side < -1e-6 * std::hypot(b.x - a.x, b.y - a.y)) return false;
   }
@@ -246,7 +246,7 @@ TEST(Certificate, CoversThePoseOfTheScanAndLeavesOutMostOfTheMap) {
     EXPECT_LT(distanceBetween(first, truth), 1e-3);
     EXPECT_LT(turnBetween(first, truth), 0.01 * kPi / 180);
     double area = 0.0;
-    for (const PoseRegion& region : result.regions) area += signedArea(region.cell);
+    for (const PoseRegion& region : result.regions) area += signedArea(region.polygon);
     EXPECT_LT(area / static_cast<double>(kBandBins), 0.02 * map.area());
   }
 }
@@ -280,7 +280,7 @@ TEST(Certificate, HoldsUnderAPrior) {
 }
 
 TEST(Certificate, OfAPriorThatAllowsNoCellEnds) {
-  // A block of the top level meets the disk, but none of its cells: there is a pillar.
+  // A block of the top level meets the disk, but none of its leaves: there is a pillar.
   const PolygonMap map = mapOf(rectangle(0, 0, 1.9, 1.9), {rectangle(0.5, 0.5, 1.4, 1.4)});
   const GlobalLocalizer localizer(map, withRegions());
   PosePrior prior;
@@ -312,7 +312,7 @@ TEST(Certificate, HoldsBeyondTheGreatestRange) {
   // 600 m long: ranges beyond 127 m are told from shorter ones alone.
   const PolygonMap map = mapOf(rectangle(0, 0, 600, 8));
   GlobalLocalizerParams params = withRegions();
-  params.cell_size = 0.5;
+  params.leaf_size = 0.5;
   const GlobalLocalizer localizer(map, params);
   const TPose2D truth{3.1, 4.2, 0.0};
   const RangeScan scan = simulatedScan(map, truth, [] {

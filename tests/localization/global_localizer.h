@@ -32,7 +32,7 @@ inline void expectConsistent(const LocalizationResult& result, std::size_t most 
     sum += h.weight;
     if (i > 0) {
       EXPECT_LE(h.weight, result.hypotheses[i - 1].weight);
-      EXPECT_GE(h.behind, result.hypotheses[i - 1].behind);
+      EXPECT_GE(h.z_score, result.hypotheses[i - 1].z_score);
     }
   }
   if (answered) {

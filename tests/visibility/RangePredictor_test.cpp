@@ -140,8 +140,8 @@ TEST(RangePredictor, EqualsBruteForceOnRandomMaps) {
     const PolygonMap map = test::floorPlan(test::randomParams(random), seed);
     const BruteForceRays rays(map);
     const Triangulation triangulation(map);
-    const double cell_size = seed % 3 == 0 ? 0.2 : seed % 3 == 1 ? 0.5 : 1.7;
-    const RangePredictor predictor(triangulation, cell_size, 1);
+    const double square_size = seed % 3 == 0 ? 0.2 : seed % 3 == 1 ? 0.5 : 1.7;
+    const RangePredictor predictor(triangulation, square_size, 1);
     for (int i = 0; i < 6; ++i) {
       const std::vector<double> bearings = randomBearings(random);
       const std::vector<TPose2D> poses = randomPoses(map, 12, random);

@@ -57,25 +57,25 @@ TEST(VisibleEdgeIndex, ListsAllThatIsSeenFromAnyPointOfACell) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const PolygonMap map = test::floorPlan(test::randomParams(random), seed);
     const Triangulation t(map);
-    const double cell_size = seed % 3 == 0 ? 0.2 : seed % 3 == 1 ? 0.5 : 1.7;
-    const VisibleEdgeIndex index(t, cell_size, 1);
+    const double square_size = seed % 3 == 0 ? 0.2 : seed % 3 == 1 ? 0.5 : 1.7;
+    const VisibleEdgeIndex index(t, square_size, 1);
     ViewExpander expander(t);
     for (const TPoint2D& p : test::randomPoints(map, 0.5, 150, random)) {
-      const std::int64_t number = index.cellNumber(p);
+      const std::int64_t number = index.squareNumber(p);
       if (t.isFree(p)) {
         EXPECT_GE(number, 0);
       }
       if (number < 0) continue;
       ++points;
-      const VisibleEdgeIndex::Cell cell = index.cell(number);
+      const VisibleEdgeIndex::EdgeRuns square = index.edgeRuns(number);
       const View& view = expander.expand(p);
       EXPECT_EQ(missing(t, index.chains(), wallsOf(view),
-                        edgesOf(index.chains(), cell.walls, cell.wall_runs)),
+                        edgesOf(index.chains(), square.walls, square.wall_runs)),
                 0U)
           << p.x << " " << p.y;
-      EXPECT_EQ(
-          missing(t, index.chains(), view.open, edgesOf(index.chains(), cell.open, cell.open_runs)),
-          0U)
+      EXPECT_EQ(missing(t, index.chains(), view.open,
+                        edgesOf(index.chains(), square.open, square.open_runs)),
+                0U)
           << p.x << " " << p.y;
     }
   }
@@ -83,7 +83,7 @@ TEST(VisibleEdgeIndex, ListsAllThatIsSeenFromAnyPointOfACell) {
 }
 
 TEST(VisibleEdgeIndex, ListsFewEdgesThatAreNotSeen) {
-  // From most cells of a floor of 120 rooms only some rooms are seen: the lists are no excuse.
+  // From most squares of a floor of 120 rooms only some rooms are seen: the lists are no excuse.
   const PolygonMap map = test::floorPlan(test::largeFloor(), 1);
   const Triangulation t(map);
   const VisibleEdgeIndex index(t, 0.5, 1);
@@ -91,8 +91,8 @@ TEST(VisibleEdgeIndex, ListsFewEdgesThatAreNotSeen) {
   ViewExpander expander(t);
   std::size_t listed = 0, seen = 0;
   for (const TPoint2D& p : test::randomFreePoints(map, 500, random)) {
-    const VisibleEdgeIndex::Cell cell = index.cell(index.cellNumber(p));
-    listed += edgesOf(index.chains(), cell.walls, cell.wall_runs).size();
+    const VisibleEdgeIndex::EdgeRuns square = index.edgeRuns(index.squareNumber(p));
+    listed += edgesOf(index.chains(), square.walls, square.wall_runs).size();
     seen += wallsOf(expander.expand(p)).size();
   }
   EXPECT_LT(listed, 3 * seen);
@@ -109,10 +109,11 @@ TEST(VisibleEdgeIndex, IsTheSameForAnyNumberOfThreads) {
     return a.first == b.first && a.edges == b.edges;
   };
   for (const TPoint2D& p : test::randomPoints(map, 0.5, 1000, random)) {
-    const std::int64_t number = one.cellNumber(p);
-    ASSERT_EQ(two.cellNumber(p), number);
+    const std::int64_t number = one.squareNumber(p);
+    ASSERT_EQ(two.squareNumber(p), number);
     if (number < 0) continue;
-    const VisibleEdgeIndex::Cell a = one.cell(number), b = two.cell(number), c = all.cell(number);
+    const VisibleEdgeIndex::EdgeRuns a = one.edgeRuns(number), b = two.edgeRuns(number),
+                                     c = all.edgeRuns(number);
     ASSERT_TRUE(std::equal(a.walls, a.walls + a.wall_runs, b.walls, b.walls + b.wall_runs, same));
     ASSERT_TRUE(std::equal(a.open, a.open + a.open_runs, b.open, b.open + b.open_runs, same));
     ASSERT_TRUE(std::equal(a.walls, a.walls + a.wall_runs, c.walls, c.walls + c.wall_runs, same));
@@ -136,7 +137,7 @@ TEST(VisibleEdgeIndex, RefusesCellSizesThatMakeNoGrid) {
   for (const double size : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), 1e-7}) {
     EXPECT_THROW(VisibleEdgeIndex(t, size, 1), InvalidParamsError) << size;
   }
-  EXPECT_TRUE(VisibleEdgeIndex(t, 1e9, 1).covers({1, 1}));  // one cell
+  EXPECT_TRUE(VisibleEdgeIndex(t, 1e9, 1).covers({1, 1}));  // one square
 }
 
 }  // namespace

@@ -14,10 +14,10 @@ using mrpt::math::TPose2D;
 
 }  // namespace
 
-WallAnchor longestAnchor(const SeenPolygon& seen) {
+WallAnchor longestAnchor(const ObservedPolygon& seen) {
   WallAnchor anchor;
   for (std::size_t i = 0; i < seen.walls().size(); ++i) {
-    const SeenPolygon::Wall& wall = seen.walls()[i];
+    const ObservedPolygon::Wall& wall = seen.walls()[i];
     const double length = (wall.to - wall.from).norm();
     const bool at_begin = seen.beginsAtVertex(i);
     if (length <= anchor.length || !(at_begin || seen.endsAtVertex(i))) continue;
@@ -27,7 +27,7 @@ WallAnchor longestAnchor(const SeenPolygon& seen) {
   return anchor;
 }
 
-ExactCandidates::ExactCandidates(const Triangulation& triangulation, const SeenPolygon& seen,
+ExactCandidates::ExactCandidates(const Triangulation& triangulation, const ObservedPolygon& seen,
                                  const PosePrior& prior, double tolerance)
     : triangulation_(&triangulation),
       seen_(&seen),
@@ -66,7 +66,7 @@ void ExactCandidates::consider(const TPose2D& pose) {
     vertex = {c * d.x + s * d.y, c * d.y - s * d.x};
   }
   try {
-    if (!agree(*seen_, SeenPolygon(expected, tolerance_), limit_)) return;
+    if (!agree(*seen_, ObservedPolygon(expected, tolerance_), limit_)) return;
   } catch (const InvalidParamsError&) {
     return;  // on a wall: what is seen from there does not surround the robot
   }

@@ -2,7 +2,7 @@
 
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/exact/ExactAnswers.h>
-#include <mrpt_polyloc/localization/exact/SeenPolygon.h>
+#include <mrpt_polyloc/localization/exact/ObservedPolygon.h>
 #include <mrpt_polyloc/localization/scan/PosePrior.h>
 #include <mrpt_polyloc/visibility/ViewExpander.h>
 
@@ -19,13 +19,13 @@ struct WallAnchor {
 };
 
 /// The longest one. \throws InvalidParamsError if there is none
-WallAnchor longestAnchor(const SeenPolygon& seen);
+WallAnchor longestAnchor(const ObservedPolygon& seen);
 
 /// The last step of every exact query: poses that may be answers come in, and those stay from which
 /// the polygon is seen, once each. For one query.
 class ExactCandidates {
  public:
-  ExactCandidates(const Triangulation& triangulation, const SeenPolygon& seen,
+  ExactCandidates(const Triangulation& triangulation, const ObservedPolygon& seen,
                   const PosePrior& prior, double tolerance);
 
   const WallAnchor& anchor() const { return anchor_; }
@@ -44,7 +44,7 @@ class ExactCandidates {
   bool isKnown(const mrpt::math::TPose2D& pose) const;
 
   const Triangulation* triangulation_;
-  const SeenPolygon* seen_;
+  const ObservedPolygon* seen_;
   const PosePrior* prior_;
   double tolerance_;
   WallAnchor anchor_;

@@ -2,7 +2,7 @@
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/localization/exact/ExactCandidates.h>
 #include <mrpt_polyloc/localization/exact/ExactLocalizer.h>
-#include <mrpt_polyloc/localization/exact/SeenPolygon.h>
+#include <mrpt_polyloc/localization/exact/ObservedPolygon.h>
 
 #include <cmath>
 
@@ -48,7 +48,7 @@ std::size_t ExactLocalizer::bytes() const {
 ExactAnswers ExactLocalizer::localize(const std::vector<TPoint2D>& view,
                                       const PosePrior& prior) const {
   prior.check();
-  const SeenPolygon seen(view, params_.tolerance);
+  const ObservedPolygon seen(view, params_.tolerance);
   ExactCandidates candidates(triangulation_, seen, prior, params_.tolerance);
   const WallAnchor& anchor = candidates.anchor();
   const TPoint2D& anchor_point = anchor.at_begin ? anchor.from : anchor.to;

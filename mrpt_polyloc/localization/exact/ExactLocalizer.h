@@ -31,7 +31,7 @@ class ExactLocalizer {
 
   /// All poses that the prior allows.
   /// \param view the visibility polygon around the robot, in its frame [m], counterclockwise
-  /// \throws InvalidParamsError as SeenPolygon, or for a bad prior. O(n) views.
+  /// \throws InvalidParamsError as ObservedPolygon, or for a bad prior. O(n) views.
   ExactAnswers localize(const std::vector<TPoint2D>& view, const PosePrior& prior = {}) const;
 
   double tolerance() const { return params_.tolerance; }  ///< [m]

@@ -128,7 +128,7 @@ void LimitedRangeLocalizer::consider(const LimitedPolygon& view, const TPose2D& 
   std::vector<TPoint2D> seen = visibilityPolygon(triangulation_, query.expander.expand(point));
   for (TPoint2D& vertex : seen) vertex = turned(vertex - point, -pose.phi);
   try {
-    if (!agree(view.pieces(), SeenPolygon(seen, tolerance_).walls(), limit)) return;
+    if (!agree(view.pieces(), ObservedPolygon(seen, tolerance_).walls(), limit)) return;
   } catch (const InvalidParamsError&) {
     return;  // on a wall
   }

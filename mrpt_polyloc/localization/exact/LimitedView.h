@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mrpt_polyloc/localization/exact/SeenPolygon.h>
+#include <mrpt_polyloc/localization/exact/ObservedPolygon.h>
 
 #include <cstddef>
 #include <vector>
@@ -19,11 +19,11 @@ struct LimitedView {
 /// The part of a visibility polygon around the origin that lies within a range. O(n).
 LimitedView withinRange(const std::vector<TPoint2D>& polygon, double range);
 
-/// A LimitedView with its windows told from its walls, as SeenPolygon does: in pieces, walls and
-/// arcs, counterclockwise.
+/// A LimitedView with its windows told from its walls, as ObservedPolygon does: in pieces, walls
+/// and arcs, counterclockwise.
 class LimitedPolygon {
  public:
-  using Piece = SeenPolygon::Wall;
+  using Piece = ObservedPolygon::Wall;
 
   /// \throws InvalidParamsError with coordinates if a vertex is not finite or out of range, if the
   /// end of an arc is not at the range, or if it does not run once, counterclockwise, around the

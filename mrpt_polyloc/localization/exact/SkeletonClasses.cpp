@@ -1,5 +1,5 @@
 #include <mrpt_polyloc/base/errors.h>
-#include <mrpt_polyloc/localization/exact/SeenPolygon.h>
+#include <mrpt_polyloc/localization/exact/ObservedPolygon.h>
 #include <mrpt_polyloc/localization/exact/SkeletonClasses.h>
 #include <mrpt_polyloc/visibility/visibility_polygon.h>
 
@@ -36,7 +36,8 @@ VisibilitySkeleton SkeletonClasses::skeletonAt(std::uint32_t place, ViewExpander
   std::vector<TPoint2D> polygon =
       visibilityPolygon(cells_->triangulation(), expander.expand(point));
   for (TPoint2D& vertex : polygon) vertex = vertex - point;
-  std::vector<VisibilitySkeleton::Gap> gaps = SeenPolygon(polygon, tolerance_).skeleton().gaps();
+  std::vector<VisibilitySkeleton::Gap> gaps =
+      ObservedPolygon(polygon, tolerance_).skeleton().gaps();
   for (VisibilitySkeleton::Gap& gap : gaps) {
     gap.vertex = gap.vertex + point;
     gap.a = gap.a + point;

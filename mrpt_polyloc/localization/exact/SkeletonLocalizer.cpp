@@ -1,5 +1,5 @@
 #include <mrpt_polyloc/localization/exact/ExactCandidates.h>
-#include <mrpt_polyloc/localization/exact/SeenPolygon.h>
+#include <mrpt_polyloc/localization/exact/ObservedPolygon.h>
 #include <mrpt_polyloc/localization/exact/SkeletonLocalizer.h>
 
 #include <cmath>
@@ -57,7 +57,7 @@ std::size_t SkeletonLocalizer::bytes() const {
 ExactAnswers SkeletonLocalizer::localize(const std::vector<TPoint2D>& view,
                                          const PosePrior& prior) const {
   prior.check();
-  const SeenPolygon seen(view, params_.tolerance);
+  const ObservedPolygon seen(view, params_.tolerance);
   if (!seen.isClear()) return single_shot_.localize(view, prior);
   ViewExpander expander(cells_.triangulation(), true);
   ExactCandidates candidates(cells_.triangulation(), seen, prior, params_.tolerance);

@@ -12,7 +12,7 @@ namespace mrpt_polyloc {
 /// Raghavan, "The robot localization problem": what is seen is looked up among the skeletons of the
 /// map's visibility cells; the answers are those of ExactLocalizer.
 ///
-/// Where the polygon is in doubt (SeenPolygon::isClear), or nothing is found, ExactLocalizer is
+/// Where the polygon is in doubt (ObservedPolygon::isClear), or nothing is found, ExactLocalizer is
 /// asked: then, and only then, a query costs as much as one without preprocessing.
 class SkeletonLocalizer {
  public:

@@ -14,7 +14,7 @@ struct Hypothesis {
   double cost = 0.0;  ///< mean robust cost per beam [m]
   /// By how many standard errors it explains the scan worse than the first does, sectors of beams
   /// taken as the independent observations; 0 for the first.
-  double behind = 0.0;
+  double z_score = 0.0;
 };
 
 }  // namespace mrpt_polyloc

@@ -1,6 +1,6 @@
 #include <mrpt_polyloc/localization/ranking/assess.h>
 #include <mrpt_polyloc/localization/ranking/match_features.h>
-#include <mrpt_polyloc/localization/scan/BeamBlocks.h>
+#include <mrpt_polyloc/localization/scan/BeamSectors.h>
 
 namespace mrpt_polyloc {
 namespace {
@@ -24,8 +24,8 @@ Assessment assess(const std::vector<RankedPose>& poses, const RangeScan& scan, c
 
   std::vector<std::size_t> order;
   std::vector<Hypothesis> hypotheses = toHypotheses(poses, scan, cost, params, &order);
-  const BeamBlocks blocks(cost.beams());
-  result.features = matchFeatures(poses, poses[order.front()], cost, blocks);
+  const BeamSectors sectors(cost.beams());
+  result.features = matchFeatures(poses, poses[order.front()], cost, sectors);
   result.match_probability = params.calibration.matchProbability(*result.features);
   if (result.match_probability < params.calibration.least_match_probability) return result;
 

@@ -2,7 +2,7 @@
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/localization/ranking/hypotheses.h>
 #include <mrpt_polyloc/localization/ranking/pose_covariance.h>
-#include <mrpt_polyloc/localization/scan/BeamBlocks.h>
+#include <mrpt_polyloc/localization/scan/BeamSectors.h>
 #include <mrpt_polyloc/localization/scan/beam_evidence.h>
 
 #include <algorithm>
@@ -24,9 +24,9 @@ double meanOf(const std::vector<float>& values) {
 }
 
 /// By how many standard errors the evidence `other` falls behind `best`.
-double errorsBehind(const std::vector<float>& best, const std::vector<float>& other,
-                    const BeamBlocks& blocks, double indifference) {
-  const PairedDifference difference = blocks.difference(best, other);
+double zScore(const std::vector<float>& best, const std::vector<float>& other,
+              const BeamSectors& sectors, double indifference) {
+  const PairedDifference difference = sectors.difference(best, other);
   // The best is the best up to rounding.
   return std::max(0.0, difference.mean) / std::hypot(difference.standard_error, indifference);
 }
@@ -69,16 +69,16 @@ std::vector<Hypothesis> toHypotheses(const std::vector<RankedPose>& poses, const
   const std::size_t best =
       static_cast<std::size_t>(std::min_element(means.begin(), means.end()) - means.begin());
 
-  const BeamBlocks blocks(cost.beams());
-  std::vector<double> behind;
+  const BeamSectors sectors(cost.beams());
+  std::vector<double> z_scores;
   for (const std::vector<float>& other : evidence) {
-    behind.push_back(errorsBehind(evidence[best], other, blocks, params.indifference));
+    z_scores.push_back(zScore(evidence[best], other, sectors, params.indifference));
   }
   std::vector<std::size_t> ranks(poses.size());
   std::iota(ranks.begin(), ranks.end(), std::size_t{0});
   // By weight, so that a list cut short holds the likeliest; the first is the best by both.
   std::stable_sort(ranks.begin(), ranks.end(),
-                   [&](std::size_t a, std::size_t b) { return behind[a] < behind[b]; });
+                   [&](std::size_t a, std::size_t b) { return z_scores[a] < z_scores[b]; });
 
   std::vector<Hypothesis> hypotheses;
   double sum = 0.0;
@@ -86,10 +86,10 @@ std::vector<Hypothesis> toHypotheses(const std::vector<RankedPose>& poses, const
     Hypothesis hypothesis;
     hypothesis.pose_map_robot = scan.robotFromBeamFrame(poses[i].refined.pose_map_beams);
     hypothesis.covariance =
-        covarianceOfRobot(poses[i].refined, scan, blocks.count(), params.calibration);
+        covarianceOfRobot(poses[i].refined, scan, sectors.count(), params.calibration);
     hypothesis.cost = poses[i].cost;
-    hypothesis.behind = behind[i];
-    hypothesis.weight = std::exp(-params.calibration.weight_decay * behind[i]);
+    hypothesis.z_score = z_scores[i];
+    hypothesis.weight = std::exp(-params.calibration.weight_decay * z_scores[i]);
     sum += hypothesis.weight;
     hypotheses.push_back(hypothesis);
   }

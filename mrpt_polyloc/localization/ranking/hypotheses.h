@@ -18,7 +18,7 @@ std::vector<RankedPose> mergeNearPoses(std::vector<RankedPose> poses,
 /// and weight.
 ///
 /// A weight is the probability that the hypothesis is the right one, given that one of them is: the
-/// softmax of -weight_decay * Hypothesis::behind.
+/// softmax of -weight_decay * Hypothesis::z_score.
 /// \param poses all that may be rivals \param order if not null, receives the index in `poses` of
 /// each hypothesis
 std::vector<Hypothesis> toHypotheses(const std::vector<RankedPose>& poses, const RangeScan& scan,

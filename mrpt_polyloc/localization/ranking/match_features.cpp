@@ -31,7 +31,7 @@ double leadOf(const std::vector<RankedPose>& poses) {
 }  // namespace
 
 MatchFeatures matchFeatures(const std::vector<RankedPose>& poses, const RankedPose& first,
-                            const ScanCost& cost, const BeamBlocks& blocks) {
+                            const ScanCost& cost, const BeamSectors& sectors) {
   PredictedRanges predicted;
   cost.predict(first.refined.pose_map_beams, predicted);
   const std::vector<Beam>& beams = cost.beams();
@@ -51,7 +51,7 @@ MatchFeatures matchFeatures(const std::vector<RankedPose>& poses, const RankedPo
   MatchFeatures features;
   features.explained = hits > 0.0 ? explained / hits : 0.0;
   features.lead = leadOf(poses);
-  features.heading = 0.5 * std::log(covarianceOfBeams(first.refined, blocks.count())(2, 2));
+  features.heading = 0.5 * std::log(covarianceOfBeams(first.refined, sectors.count())(2, 2));
   features.seen = view > 0.0 ? seen / view : 1.0;
   return features;
 }

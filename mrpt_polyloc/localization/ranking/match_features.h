@@ -2,7 +2,7 @@
 
 #include <mrpt_polyloc/localization/ranking/MatchFeatures.h>
 #include <mrpt_polyloc/localization/ranking/RankedPose.h>
-#include <mrpt_polyloc/localization/scan/BeamBlocks.h>
+#include <mrpt_polyloc/localization/scan/BeamSectors.h>
 #include <mrpt_polyloc/localization/scan/ScanCost.h>
 
 #include <vector>
@@ -10,8 +10,8 @@
 namespace mrpt_polyloc {
 
 /// The features of the first pose. \param poses sorted by cost, at least one
-/// \param first the one that counts as the answer \param blocks of the beams of `cost`
+/// \param first the one that counts as the answer \param sectors of the beams of `cost`
 MatchFeatures matchFeatures(const std::vector<RankedPose>& poses, const RankedPose& first,
-                            const ScanCost& cost, const BeamBlocks& blocks);
+                            const ScanCost& cost, const BeamSectors& sectors);
 
 }  // namespace mrpt_polyloc

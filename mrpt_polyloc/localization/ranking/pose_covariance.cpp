@@ -25,12 +25,12 @@ mrpt::math::CMatrixDouble33 fromEigen(const Eigen::Matrix3d& matrix) {
 }
 
 /// \param factors of the standard deviations of x, y and phi
-Eigen::Matrix3d localCovariance(const RefinedPose& pose, std::size_t blocks,
+Eigen::Matrix3d localCovariance(const RefinedPose& pose, std::size_t sectors,
                                 const Eigen::Vector3d& factors) {
   constexpr double kWidestStd = 0.5, kWidestStdAngle = 0.1745;
   const auto beams = static_cast<double>(std::max<std::size_t>(pose.used_beams, 1));
-  // More blocks than beams: each beam is an observation, none counts twice.
-  const double share = std::min(1.0, static_cast<double>(blocks) / beams);
+  // More sectors than beams: each beam is an observation, none counts twice.
+  const double share = std::min(1.0, static_cast<double>(sectors) / beams);
   const Eigen::Vector3d narrowed = factors.cwiseInverse();
   Eigen::Matrix3d information =
       narrowed.asDiagonal() * (share * toEigen(pose.information)) * narrowed.asDiagonal();
@@ -41,14 +41,14 @@ Eigen::Matrix3d localCovariance(const RefinedPose& pose, std::size_t blocks,
 
 }  // namespace
 
-mrpt::math::CMatrixDouble33 covarianceOfBeams(const RefinedPose& pose, std::size_t blocks) {
-  return fromEigen(localCovariance(pose, blocks, Eigen::Vector3d::Ones()));
+mrpt::math::CMatrixDouble33 covarianceOfBeams(const RefinedPose& pose, std::size_t sectors) {
+  return fromEigen(localCovariance(pose, sectors, Eigen::Vector3d::Ones()));
 }
 
 mrpt::math::CMatrixDouble33 covarianceOfRobot(const RefinedPose& pose, const RangeScan& scan,
-                                              std::size_t blocks, const Calibration& calibration) {
+                                              std::size_t sectors, const Calibration& calibration) {
   const Eigen::Matrix3d of_beams = localCovariance(
-      pose, blocks,
+      pose, sectors,
       {calibration.position_factor, calibration.position_factor, calibration.heading_factor});
   // The robot's origin turns with the heading: robot = beams - R(phi) sensor.
   const double c = std::cos(pose.pose_map_beams.phi), s = std::sin(pose.pose_map_beams.phi);

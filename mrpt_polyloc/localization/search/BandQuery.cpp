@@ -8,7 +8,7 @@
 namespace mrpt_polyloc {
 namespace {
 
-static_assert(RangeBytes::kReach == ScanCost::kReach, "one metric for bounds and poses");
+static_assert(QuantizedRange::kReach == ScanCost::kReach, "one metric for bounds and poses");
 
 /// By so much of a bin beams may be off the phase: rounding, within the bands' angular slack.
 constexpr double kInPhase = 4e-4;
@@ -105,34 +105,35 @@ BandQuery::ChosenBeams BandQuery::choose(const std::vector<Beam>& informative) {
 }
 
 void BandQuery::takeRanges(const ChosenBeams& chosen, const RobustCostParams& cost) {
-  for (std::size_t scale = 0; scale < RangeBytes::kScales; ++scale) {
+  for (std::size_t scale = 0; scale < QuantizedRange::kScales; ++scale) {
     Scaled& to = scaled[scale];
     const double cap_gap = std::min(cost.tau_short, cost.tau_long);
-    to.cap_short = RangeBytes::down(cost.tau_short, scale);
-    to.cap_long = RangeBytes::down(cost.tau_long, scale);
-    to.cap_none = RangeBytes::down(cost.tau_none, scale);
-    to.cap_gap = RangeBytes::down(cap_gap, scale);
-    to.cap_open_gap = RangeBytes::down(std::min(cap_gap, cost.tau_open), scale);
+    to.cap_short = QuantizedRange::down(cost.tau_short, scale);
+    to.cap_long = QuantizedRange::down(cost.tau_long, scale);
+    to.cap_none = QuantizedRange::down(cost.tau_none, scale);
+    to.cap_gap = QuantizedRange::down(cap_gap, scale);
+    to.cap_open_gap = QuantizedRange::down(std::min(cap_gap, cost.tau_open), scale);
     if (metric == SearchMetric::polar) {
-      to.cap_short = to.cap_long = to.cap_gap = to.cap_open_gap = RangeBytes::kGreatest;
+      to.cap_short = to.cap_long = to.cap_gap = to.cap_open_gap = QuantizedRange::kGreatest;
     }
     for (std::size_t i = 0; i < kRoom; ++i) {
       const Beam* beam = chosen[i % kBandBins];
       const bool is_hit = beam != nullptr && beam->kind == BeamKind::hit;
-      to.short_range[i] = is_hit ? RangeBytes::up(beam->range, scale) : RangeBytes::kGreatest;
+      to.short_range[i] =
+          is_hit ? QuantizedRange::up(beam->range, scale) : QuantizedRange::kGreatest;
       to.long_range[i] = beam == nullptr ? 0
-                         : is_hit        ? RangeBytes::down(beam->range, scale)
-                                         : RangeBytes::down(cost.none_share * beam->range, scale);
+                         : is_hit        ? QuantizedRange::down(beam->range, scale)
+                                  : QuantizedRange::down(cost.none_share * beam->range, scale);
     }
   }
-  constexpr int kMostOfAByte = RangeBytes::kGreatest / kVectors;
+  constexpr int kMostOfAByte = QuantizedRange::kGreatest / kVectors;
   const Scaled& finest = scaled[0];
   has_wide_caps = std::max({finest.cap_short, finest.cap_long, finest.cap_none}) > kMostOfAByte;
 }
 
 void BandQuery::takeViewRanges(const ChosenBeams& chosen, const RobustCostParams& cost) {
   const auto in_units = [](double meters, double most = 65535.0) {
-    return static_cast<std::uint16_t>(std::clamp(meters / CellTree::kViewUnit, 0.0, most));
+    return static_cast<std::uint16_t>(std::clamp(meters / SearchTree::kViewUnit, 0.0, most));
   };
   constexpr double kGreatestCap = 65535 / 6;  // sums of words must not overflow
   cap_short_view = in_units(cost.tau_short, kGreatestCap);
@@ -151,11 +152,11 @@ void BandQuery::takeViewRanges(const ChosenBeams& chosen, const RobustCostParams
 
 double BandQuery::meters(unsigned units) const {
   const double mean = static_cast<double>(units) / static_cast<double>(beams.size());
-  return (metric == SearchMetric::polar ? std::sqrt(mean) : mean) * RangeBytes::kFinestUnit;
+  return (metric == SearchMetric::polar ? std::sqrt(mean) : mean) * QuantizedRange::kFinestUnit;
 }
 
 unsigned BandQuery::units(double meters) const {
-  const double each = meters / RangeBytes::kFinestUnit;
+  const double each = meters / QuantizedRange::kFinestUnit;
   const double sum =
       (metric == SearchMetric::polar ? each * each : each) * static_cast<double>(beams.size());
   constexpr auto kMost = std::numeric_limits<unsigned>::max();

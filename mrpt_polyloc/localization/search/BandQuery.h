@@ -2,9 +2,9 @@
 
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 #include <mrpt_polyloc/localization/scan/RobustCost.h>
-#include <mrpt_polyloc/localization/search/CellTree.h>
-#include <mrpt_polyloc/localization/search/RangeBytes.h>
+#include <mrpt_polyloc/localization/search/QuantizedRange.h>
 #include <mrpt_polyloc/localization/search/SearchMetric.h>
+#include <mrpt_polyloc/localization/search/SearchTree.h>
 
 #include <array>
 #include <cstddef>
@@ -31,13 +31,13 @@ struct BandQuery {
 
   /// Heading of the beam frame at the begin of heading bin h (0 to kBandBins - 1) [rad].
   double heading(double h) const { return h * kBandBinWidth - phase; }
-  /// The search cost [m] that stands for a sum of units: of the finest unit of RangeBytes, or of
-  /// its square for the polar metric.
+  /// The search cost [m] that stands for a sum of units: of the finest unit of QuantizedRange, or
+  /// of its square for the polar metric.
   double meters(unsigned units) const;
   /// The other way round, rounded down; the greatest where it would be exceeded.
   unsigned units(double meters) const;
 
-  /// The scan in RangeBytes of one scale, by the bin of a beam's bearing, the circle twice.
+  /// The scan in QuantizedRange of one scale, by the bin of a beam's bearing, the circle twice.
   struct Scaled {
     /// The range, where it is held against what it may fall short of, or against what it may have
     /// passed. Without a beam the former is the greatest and the latter 0, which cost nothing. A
@@ -47,9 +47,9 @@ struct BandQuery {
     std::uint8_t cap_short, cap_long, cap_none;
     std::uint8_t cap_gap, cap_open_gap;  ///< where no open edge may come before the wall, or may
   };
-  std::array<Scaled, RangeBytes::kScales> scaled;
+  std::array<Scaled, QuantizedRange::kScales> scaled;
   alignas(64) std::array<std::uint8_t, kRoom> no_return{};  ///< all bits, or none
-  /// The same in the units of CellTree::View.
+  /// The same in the units of SearchTree::View.
   alignas(64) std::array<std::uint16_t, kRoom> short_view{}, long_view{}, no_return_view{};
   std::uint16_t cap_short_view = 0, cap_long_view = 0, cap_open_view = 0, cap_none_view = 0;
   std::array<bool, kRoom> informs_from{};  ///< whether a vector from there on holds a beam

@@ -13,14 +13,14 @@ namespace mrpt_polyloc {
 struct Certificate {
   double cost = 0.0;        ///< search cost [m]: a mean over the beams searched with
   bool is_complete = true;  ///< false: a budget ended the search before the margin was reached
-  std::size_t regions = 0;  ///< not excluded, each a cell and a few degrees of heading
+  std::size_t regions = 0;  ///< not excluded, each a leaf and a few degrees of heading
 };
 
 /// Poses of the beam frame (see RangeScan) in the map that could not be excluded.
 struct PoseRegion {
-  std::vector<mrpt::math::TPoint2D> cell;  ///< convex polygon of the sensor's positions [m]
-  double first_heading, last_heading;      ///< counterclockwise from the first to the last [rad]
-  double bound;                            ///< no pose of it has a lower search cost [m]
+  std::vector<mrpt::math::TPoint2D> polygon;  ///< convex polygon of the sensor's positions [m]
+  double first_heading, last_heading;         ///< counterclockwise from the first to the last [rad]
+  double bound;                               ///< no pose of it has a lower search cost [m]
 };
 
 }  // namespace mrpt_polyloc

@@ -1,9 +1,9 @@
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/params_check.h>
-#include <mrpt_polyloc/localization/search/CellDescent.h>
 #include <mrpt_polyloc/localization/search/CertifiedSearch.h>
-#include <mrpt_polyloc/localization/search/cell_view_cost.h>
+#include <mrpt_polyloc/localization/search/TreeDescent.h>
+#include <mrpt_polyloc/localization/search/view_cost.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace mrpt_polyloc {
 namespace {
 
-using Node = CellDescent::Node;
+using Node = TreeDescent::Node;
 
 /// Of the leaves in a place of this size only the best is refined: the others lead to the same
 /// optimum.
@@ -29,9 +29,9 @@ std::int64_t placeOf(const mrpt::math::TPose2D& pose, std::uint32_t heading) {
 }
 
 /// Leaves with their costs in the middle, and from them where to start refinement.
-class Starts {
+class SeedPoses {
  public:
-  Starts(const CellTree& tree, const BandQuery& query, const CertifiedSearchParams& params)
+  SeedPoses(const SearchTree& tree, const BandQuery& query, const CertifiedSearchParams& params)
       : tree_(tree), query_(query), params_(params) {}
 
   std::vector<Node> leaves;
@@ -39,9 +39,9 @@ class Starts {
   /// Takes the leaves added since.
   void evaluate() {
     for (std::size_t i = costs_.size(); i < leaves.size(); ++i) {
-      const CellTree::View view = tree_.middleView(leaves[i].index);
+      const SearchTree::View view = tree_.middleView(leaves[i].index);
       // The window's middle first; the rest of it where that is not far off.
-      const std::uint32_t middle = leaves[i].heading + CellTree::kWindow[0] / 2;
+      const std::uint32_t middle = leaves[i].heading + SearchTree::kWindow[0] / 2;
       costs_.push_back(viewCost(view, query_, middle % kBandBins));
       headings_.push_back(middle % kBandBins);
       least_ = std::min(least_, costs_[i]);
@@ -78,14 +78,14 @@ class Starts {
 
  private:
   double limit() const {
-    return static_cast<double>(least_) * (1.0 + params_.start_share) + params_.start_margin;
+    return static_cast<double>(least_) * (1.0 + params_.seed_share) + params_.seed_margin;
   }
   mrpt::math::TPose2D pose(std::size_t leaf) const {
     const TPoint2D p = tree_.middle(leaves[leaf].index);
     return {p.x, p.y, query_.heading(headings_[leaf])};
   }
 
-  const CellTree& tree_;
+  const SearchTree& tree_;
   const BandQuery& query_;
   const CertifiedSearchParams& params_;
   std::vector<float> costs_;             ///< in the middle of the leaves [m]
@@ -141,35 +141,36 @@ class LeastRefined {
 void CertifiedSearchParams::check() const {
   requireInRange("margin_share", margin_share, 0.0, 10.0);
   requireInRange("margin", margin, 0.0, 10.0);
-  requireInRange("start_share", start_share, 0.0, 100.0);
-  requireInRange("start_margin", start_margin, 0.0, 100.0);
+  requireInRange("seed_share", seed_share, 0.0, 100.0);
+  requireInRange("seed_margin", seed_margin, 0.0, 100.0);
   requireInRange("max_candidates", static_cast<double>(max_candidates), 1.0, 1e6);
   requireNotNegative("time_budget_ms", time_budget_ms);
 }
 
-CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
-                                  const PosePrior& prior, const mrpt::math::TPoint2D& sensor,
-                                  const PoseScorer& scorer, const CertifiedSearchParams& params) {
+CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
+                                 const PosePrior& prior, const mrpt::math::TPoint2D& sensor,
+                                 const PoseScorer& scorer, const CertifiedSearchParams& params) {
   CertifiedSearchResult result;
   if (query.beams.empty()) return result;
   const Budget budget(params);
-  thread_local CellDescent::Workspace workspace;
-  CellDescent descent(tree, query, prior, sensor, workspace);
+  thread_local TreeDescent::Workspace workspace;
+  TreeDescent descent(tree, query, prior, sensor, workspace);
 
   // The first limits are below what noise alone costs: few leaves are within them, the right one
   // mostly among them, as bounds are well below costs.
   constexpr double kFirstLimit = 0.01;  // [m]
-  constexpr std::size_t kDiveWidth = 64;
-  Starts starts(tree, query, params);
+  constexpr std::size_t kGreedyWidth = 64;
+  SeedPoses seeds(tree, query, params);
   LeastRefined refined(scorer);
   unsigned certified = 0, limit = query.units(kFirstLimit);
   for (;;) {
-    result.is_complete = descent.raise(
-        limit, [&] { return budget.isSpent(descent.evaluated()); }, starts.leaves);
-    if (!result.is_complete && starts.leaves.empty()) descent.dive(kDiveWidth, starts.leaves);
-    starts.evaluate();
+    result.is_complete = descent.expandUpTo(
+        limit, [&] { return budget.isSpent(descent.evaluated()); }, seeds.leaves);
+    if (!result.is_complete && seeds.leaves.empty())
+      descent.greedyDescent(kGreedyWidth, seeds.leaves);
+    seeds.evaluate();
     if (!result.is_complete) break;
-    refined.take(starts.best(kRefined));
+    refined.take(seeds.best(kRefined));
     const double least = refined.cost();
     const bool is_found = std::isfinite(least);
     const unsigned target =
@@ -182,10 +183,10 @@ CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
     limit = std::min(target, grown(limit));
   }
 
-  result.candidates = starts.best(params.max_candidates);
+  result.candidates = seeds.best(params.max_candidates);
   result.certified_cost = query.meters(certified);
   result.evaluated = descent.evaluated();
-  for (const Node& leaf : starts.leaves) {
+  for (const Node& leaf : seeds.leaves) {
     if (leaf.bound > certified) continue;
     result.regions.push_back({leaf.index, static_cast<std::uint16_t>(leaf.heading),
                               static_cast<float>(query.meters(leaf.bound))});

@@ -2,10 +2,10 @@
 
 #include <mrpt_polyloc/localization/scan/PosePrior.h>
 #include <mrpt_polyloc/localization/search/BandQuery.h>
-#include <mrpt_polyloc/localization/search/CellTree.h>
 #include <mrpt_polyloc/localization/search/CertifiedSearchParams.h>
 #include <mrpt_polyloc/localization/search/PoseCandidate.h>
 #include <mrpt_polyloc/localization/search/PoseScorer.h>
+#include <mrpt_polyloc/localization/search/SearchTree.h>
 
 #include <mrpt/math/TPoint2D.h>
 
@@ -15,9 +15,9 @@
 
 namespace mrpt_polyloc {
 
-/// A cell and a window of headings, of kWindow[0] bins, that could not be excluded.
-struct RemainingCell {
-  std::uint32_t cell;     ///< of the CellTree
+/// A leaf and a window of headings, of kWindow[0] bins, that could not be excluded.
+struct RemainingLeaf {
+  std::uint32_t leaf;     ///< of the SearchTree
   std::uint16_t heading;  ///< first bin, of BandQuery::heading()
   float bound;            ///< no pose of it has a lower search cost [m]
 };
@@ -26,7 +26,7 @@ struct CertifiedSearchResult {
   std::vector<PoseCandidate> candidates;  ///< starting points for refinement, best first
   /// Every pose that the prior allows whose search cost is at most `certified_cost` lies in one of
   /// these.
-  std::vector<RemainingCell> regions;
+  std::vector<RemainingLeaf> regions;
   double certified_cost = 0.0;  ///< [m]
   /// Whether certified_cost reaches the least search cost found plus the margin; false where a
   /// budget ended the search.
@@ -34,15 +34,15 @@ struct CertifiedSearchResult {
   std::size_t evaluated = 0;  ///< nodes whose bound was computed
 };
 
-/// Branch and bound over (cell, window of headings). The limit rises in a few steps, until it
+/// Branch and bound over (leaf, window of headings). The limit rises in a few steps, until it
 /// reaches the least cost that the poses found on the way have once refined, plus the margin. What
-/// is bounded above it is left out; what remains of the cells are the regions.
+/// is bounded above it is left out; what remains of the leaves are the regions.
 ///
 /// \param sensor the beams' origin in the robot frame, to hold `prior`, which speaks of the robot,
 /// against
-CertifiedSearchResult searchCells(const CellTree& tree, const BandQuery& query,
-                                  const PosePrior& prior, const mrpt::math::TPoint2D& sensor,
-                                  const PoseScorer& scorer,
-                                  const CertifiedSearchParams& params = {});
+CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
+                                 const PosePrior& prior, const mrpt::math::TPoint2D& sensor,
+                                 const PoseScorer& scorer,
+                                 const CertifiedSearchParams& params = {});
 
 }  // namespace mrpt_polyloc

@@ -9,10 +9,10 @@ struct CertifiedSearchParams {
   /// the cost is noisy, and the right pose does not always have the least.
   double margin_share = 0.1;
   double margin = 0.01;  ///< [m]
-  /// Of the poses kept, those whose cost in the middle of their cell is within this share of the
-  /// best such cost, plus `start_margin`, are starting points for refinement.
-  double start_share = 0.3;
-  double start_margin = 0.08;        ///< [m]
+  /// Of the poses kept, those whose cost in the middle of their leaf is within this share of the
+  /// best such cost, plus `seed_margin`, are starting points for refinement.
+  double seed_share = 0.3;
+  double seed_margin = 0.08;         ///< [m]
   std::size_t max_candidates = 200;  ///< the best so many of them
   /// Nodes evaluated at most before the search stops and says up to which cost it is certified; 0:
   /// no limit.

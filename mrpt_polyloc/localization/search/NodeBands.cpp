@@ -39,7 +39,7 @@ BinBand unionOf(const BinBand& a, const BinBand& b) {
 
 }  // namespace
 
-void bandsOfCell(const RangeBands& ranges, NodeBands& bands) {
+void bandsOfLeaf(const RangeBands& ranges, NodeBands& bands) {
   for (std::size_t b = 0; b < kBandBins; ++b) {
     const float near_low = std::min(ranges.wall_low[b], ranges.open_low[b]);
     const float near_high = std::min(ranges.wall_high[b], ranges.open_high[b]);

@@ -25,8 +25,8 @@ struct BinBand {
 /// Of all angular bins, entry b being of the window of bins that begins with b.
 using NodeBands = std::array<BinBand, kBandBins>;
 
-/// Of a cell, over windows of one bin.
-void bandsOfCell(const RangeBands& ranges, NodeBands& bands);
+/// Of a leaf, over windows of one bin.
+void bandsOfLeaf(const RangeBands& ranges, NodeBands& bands);
 
 /// Makes `to` hold what `from` holds as well, entry b of the latter being taken for b - shift.
 void unite(const NodeBands& from, std::size_t shift, NodeBands& to);

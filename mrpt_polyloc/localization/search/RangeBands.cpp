@@ -25,12 +25,12 @@ constexpr float kAngularSlack = 2e-5F;
 
 using Depths = std::array<float, kUnwrapped + kBlock>;
 
-/// The lines that bound the Minkowski difference of an edge and the cell: with u the direction of a
+/// The lines that bound the Minkowski difference of an edge and the leaf: with u the direction of a
 /// ray, the ray enters it at an inverse range of at most the least `near` bound, and leaves it at
 /// one of at least the greatest `far` bound.
 struct EdgeBounds {
-  float nx, ny;                  ///< normal of the edge's line, away from the cell
-  float near_n, far_n;           ///< 1 / its least and greatest distance from the cell
+  float nx, ny;                  ///< normal of the edge's line, away from the leaf
+  float near_n, far_n;           ///< 1 / its least and greatest distance from the leaf
   float near_x, far_x;           ///< bounds are near_x * u.x ...
   float near_y, far_y;           ///< ... and near_y * u.y; unbounded or 0 where they say nothing
   float skip_n, skip_x, skip_y;  ///< kUnbounded where the near bound says nothing
@@ -53,7 +53,7 @@ POLYLOC_INLINE void boundCoordinate(float low, float high, float& near, float& f
 }
 
 /// A run with some edges more at both ends. Where a nearer edge ends, a chain behind it blocks a
-/// bin for all of a cell only if it goes on a little behind the nearer one, where it is not seen.
+/// bin for all of a leaf only if it goes on a little behind the nearer one, where it is not seen.
 BoundaryChains::Run extended(const BoundaryChains& chains, BoundaryChains::Run run) {
   constexpr int kMore = 8;  // measured: 16 and 30 change nothing more
   for (int i = 0; i < kMore && run.first > 0 && chains.isEdge(run.first - 1); ++i) {
@@ -82,14 +82,14 @@ struct RangeBandFinder::Workspace {
 
   Depths first_cosines, first_sines, last_cosines, last_sines;  ///< of the bins' ends
   Depths near, far;  ///< inverse: of the least, and of the greatest range
-  /// Inverse ranges of the chain being followed, since it was before the bin from all of the cell;
+  /// Inverse ranges of the chain being followed, since it was before the bin from all of the leaf;
   /// negative where it has been past it since.
   Depths passing;
-  std::vector<float> x, y;           ///< a run's vertices, relative to the cell's middle [m]
+  std::vector<float> x, y;           ///< a run's vertices, relative to the leaf's middle [m]
   std::vector<float> bearing;        ///< from the middle
   std::vector<float> before, after;  ///< of the middle's bearing, by how much others differ
-  std::vector<TPoint2D> cell;        ///< relative to the middle
-  float low_x = 0, high_x = 0, low_y = 0, high_y = 0;  ///< of the cell
+  std::vector<TPoint2D> leaf;        ///< relative to the middle
+  float low_x = 0, high_x = 0, low_y = 0, high_y = 0;  ///< of the leaf
   /// Between which inverse ranges each edge followed may be hit, bin by bin.
   struct EdgeHit {
     int bin;
@@ -99,7 +99,7 @@ struct RangeBandFinder::Workspace {
   std::array<std::size_t, kBandBins + 1> first_hit;  ///< of a bin, in `sorted_hits`
   std::vector<EdgeHit> sorted_hits;
 
-  void takeCell(const TPoint2D* vertices, std::size_t count, const TPoint2D& middle);
+  void takeLeaf(const TPoint2D* vertices, std::size_t count, const TPoint2D& middle);
   std::size_t gather(const BoundaryChains& chains, const BoundaryChains::Run& run,
                      const TPoint2D& middle);
   void takeBearings(std::size_t count);
@@ -113,14 +113,14 @@ struct RangeBandFinder::Workspace {
   void findGaps(RangeBands& bands);
 };
 
-void RangeBandFinder::Workspace::takeCell(const TPoint2D* vertices, std::size_t count,
+void RangeBandFinder::Workspace::takeLeaf(const TPoint2D* vertices, std::size_t count,
                                           const TPoint2D& middle) {
-  cell.clear();
+  leaf.clear();
   low_x = low_y = kUnbounded;
   high_x = high_y = -kUnbounded;
   for (std::size_t k = 0; k < count; ++k) {
     const TPoint2D p = vertices[k] - middle;
-    cell.push_back(p);
+    leaf.push_back(p);
     low_x = std::min(low_x, static_cast<float>(p.x));
     high_x = std::max(high_x, static_cast<float>(p.x));
     low_y = std::min(low_y, static_cast<float>(p.y));
@@ -146,7 +146,7 @@ std::size_t RangeBandFinder::Workspace::gather(const BoundaryChains& chains,
 }
 
 /// Directions of the vertices from the middle, and how far to either side of that they are seen
-/// from the cell's vertices: it is convex and no vertex lies in it, so less than half a turn.
+/// from the leaf's vertices: it is convex and no vertex lies in it, so less than half a turn.
 POLYLOC_HOT_LOOP
 void RangeBandFinder::Workspace::takeBearings(std::size_t count) {
   const std::size_t end = (count + kVertexBlock - 1) / kVertexBlock * kVertexBlock;
@@ -160,7 +160,7 @@ void RangeBandFinder::Workspace::takeBearings(std::size_t count) {
     befores[i] = 0.0F;
     afters[i] = 0.0F;
   }
-  for (const TPoint2D& corner : cell) {
+  for (const TPoint2D& corner : leaf) {
     const auto cx = static_cast<float>(corner.x), cy = static_cast<float>(corner.y);
     for (std::size_t i = 0; i < end; ++i) {
       const float dx = xs[i] - cx, dy = ys[i] - cy;
@@ -171,7 +171,7 @@ void RangeBandFinder::Workspace::takeBearings(std::size_t count) {
   }
 }
 
-/// False if the edge from vertex i faces no point of the cell.
+/// False if the edge from vertex i faces no point of the leaf.
 POLYLOC_INLINE bool RangeBandFinder::Workspace::boundEdge(std::size_t i, EdgeBounds& e) const {
   constexpr float kLeast = 1e-6F;
   const float ax = x[i], ay = y[i], bx = x[i + 1], by = y[i + 1];
@@ -181,7 +181,7 @@ POLYLOC_INLINE bool RangeBandFinder::Workspace::boundEdge(std::size_t i, EdgeBou
   e.ny = (ax - bx) / length;
   const float distance = e.nx * ax + e.ny * ay;
   float least = kUnbounded, greatest = -kUnbounded;
-  for (const TPoint2D& corner : cell) {
+  for (const TPoint2D& corner : leaf) {
     const float d =
         distance - e.nx * static_cast<float>(corner.x) - e.ny * static_cast<float>(corner.y);
     least = std::min(least, d);
@@ -233,7 +233,7 @@ POLYLOC_INLINE void RangeBandFinder::Workspace::raise(const EdgeBounds& e, int f
   }
 }
 
-/// Follows a chain from vertex i on, until its end or until it has turned too far around the cell;
+/// Follows a chain from vertex i on, until its end or until it has turned too far around the leaf;
 /// i is then where it is to be taken up again.
 POLYLOC_HOT_LOOP
 void RangeBandFinder::Workspace::followStretch(std::size_t& i, std::size_t count) {
@@ -264,7 +264,7 @@ void RangeBandFinder::Workspace::followStretch(std::size_t& i, std::size_t count
     }
     angle = next;
     turns += wrap;
-    // The chain is past a bin if it is from all of the cell: then the stretch blocked it.
+    // The chain is past a bin if it is from all of the leaf: then the stretch blocked it.
     const int past_end = binOf(angle + before[i + 1] - kAngularSlack);
     for (int b = past_to; b < past_end; ++b) {
       const auto k = static_cast<std::size_t>(b);
@@ -359,16 +359,16 @@ RangeBandFinder::RangeBandFinder(const VisibleEdgeIndex& index)
     : index_(&index), workspace_(std::make_unique<Workspace>()) {}
 RangeBandFinder::~RangeBandFinder() = default;
 
-void RangeBandFinder::find(const TPoint2D* cell, std::size_t count, RangeBands& bands) {
+void RangeBandFinder::find(const TPoint2D* leaf, std::size_t count, RangeBands& bands) {
   TPoint2D middle{0, 0};
-  for (std::size_t k = 0; k < count; ++k) middle += cell[k] * (1.0 / static_cast<double>(count));
+  for (std::size_t k = 0; k < count; ++k) middle += leaf[k] * (1.0 / static_cast<double>(count));
   const BoundaryChains& chains = index_->chains();
   Workspace& w = *workspace_;
-  w.takeCell(cell, count, middle);
-  VisibleEdgeIndex::Cell seen{chains.walls().data(), chains.walls().size(), chains.open().data(),
-                              chains.open().size()};
-  const std::int64_t number = index_->cellNumber(middle);
-  if (number >= 0) seen = index_->cell(number);
+  w.takeLeaf(leaf, count, middle);
+  VisibleEdgeIndex::EdgeRuns seen{chains.walls().data(), chains.walls().size(),
+                                  chains.open().data(), chains.open().size()};
+  const std::int64_t number = index_->squareNumber(middle);
+  if (number >= 0) seen = index_->edgeRuns(number);
   w.hits.clear();
   w.followRuns(chains, seen.walls, seen.wall_runs, middle);
   w.ranges(bands.wall_low.data(), bands.wall_high.data());

@@ -13,7 +13,7 @@ namespace mrpt_polyloc {
 constexpr std::size_t kBandBins = 180;
 constexpr double kBandBinWidth = kTwoPi / static_cast<double>(kBandBins);  ///< [rad]
 
-/// For every angular bin, bounds of what is predicted from all points of a cell in all directions
+/// For every angular bin, bounds of what is predicted from all points of a leaf in all directions
 /// of the bin [m]: of the range to the first wall, and of the range at which an open edge is met
 /// (infinity: none may be, or not from everywhere). Where a nearer wall ends within a bin, the
 /// ranges have a gap: no wall and no open edge is met first between gap_low and gap_high (the
@@ -25,16 +25,16 @@ struct RangeBands {
   bool has_open = false;  ///< whether an open edge may be seen at all
 };
 
-/// Finds the range bands of convex cells, rigorous on both sides.
+/// Finds the range bands of convex polygons, the leaves, rigorous on both sides.
 ///
 /// *Least range* (the first hit is not farther than any point of an obstacle on the ray): over the
-/// edges e that face the cell C from some point of it, the least distance from 0 in a bin of the
+/// edges e that face the leaf C from some point of it, the least distance from 0 in a bin of the
 /// Minkowski difference e - C, which lies beyond the line of e as near as C comes to it and within
 /// the differences' box. *Greatest range*: a chain of edges blocks a bin for all of C if, seen from
 /// every point of it, the chain begins before the bin and ends after it (the directions of its
 /// points are continuous along it); then some edge of it that faces the point is hit, and no such
 /// edge reaches farther in the bin than the same bounds from outside allow. The bin's greatest
-/// range is the least over all blocking stretches of chains. *Gap*: each edge that faces the cell
+/// range is the least over all blocking stretches of chains. *Gap*: each edge that faces the leaf
 /// is hit in the bin between the same two bounds only; the widest stretch between the least and the
 /// greatest range that no edge's bounds reach into.
 ///
@@ -45,11 +45,11 @@ class RangeBandFinder {
   explicit RangeBandFinder(const VisibleEdgeIndex& index);
   ~RangeBandFinder();
 
-  /// \param cell convex, counterclockwise, at most kMostVertices vertices, not crossed by a border,
-  /// within one cell of the index [m]; `count` vertices
+  /// \param leaf convex, counterclockwise, at most kMostVertices vertices, not crossed by a border,
+  /// within one square of the index [m]; `count` vertices
   /// Keeps its memory between calls: use one finder per thread. O(listed edges * count + bins
   /// covered).
-  void find(const TPoint2D* cell, std::size_t count, RangeBands& bands);
+  void find(const TPoint2D* leaf, std::size_t count, RangeBands& bands);
 
  private:
   struct Workspace;

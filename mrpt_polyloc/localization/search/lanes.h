@@ -25,22 +25,22 @@ POLYLOC_LANES void load(const T* from, V& to) {
   std::memcpy(&to, from, sizeof(V));
 }
 template <class V>
-POLYLOC_LANES void lower(V& a, const V& b) {
+POLYLOC_LANES void takeMin(V& a, const V& b) {
   a = a < b ? a : b;
 }
 template <class V>
-POLYLOC_LANES void raise(V& a, const V& b) {
+POLYLOC_LANES void takeMax(V& a, const V& b) {
   a = a > b ? a : b;
 }
 /// a becomes a - b where that is positive, else 0.
 template <class V>
-POLYLOC_LANES void takeExcess(V& a, const V& b) {
-  raise(a, b);
+POLYLOC_LANES void subtractSaturated(V& a, const V& b) {
+  takeMax(a, b);
   a -= b;
 }
 /// Lanes of a where the mask's bits are set, else of b.
 template <class V>
-POLYLOC_LANES void blend(const V& mask, const V& a, V& b) {
+POLYLOC_LANES void select(const V& mask, const V& a, V& b) {
   b ^= mask & (a ^ b);
 }
 /// The lanes' sum.

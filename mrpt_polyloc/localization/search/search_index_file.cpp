@@ -77,32 +77,32 @@ class Reader {
 
 /// The arrays of an index, in the order of the file. The types are const, or not.
 template <class Lists, class Data, class Action>
-void forEachArray(Lists& edges, Data& cells, Action&& action) {
-  action(edges.of_cell);
+void forEachArray(Lists& edges, Data& tree, Action&& action) {
+  action(edges.of_square);
   action(edges.begin);
   action(edges.runs);
-  action(cells.vertices);
-  action(cells.first_vertex);
-  for (auto& level : cells.levels) {
+  action(tree.vertices);
+  action(tree.first_vertex);
+  for (auto& level : tree.levels) {
     action(level.nodes);
     action(level.boxes);
     action(level.codes);
   }
-  action(cells.views);
+  action(tree.views);
 }
 
 }  // namespace
 
-std::string serializeIndex(const VisibleEdgeIndex::Lists& edges, const CellTree::Data& cells,
+std::string serializeIndex(const VisibleEdgeIndex::Lists& edges, const SearchTree::Data& tree,
                            std::uint64_t map_hash) {
   Writer writer;
   writer.content.append(kMagic, sizeof(kMagic));
   writer.put(kVersion);
   writer.put(static_cast<std::uint32_t>(kBandBins));
   writer.put(map_hash);
-  writer.put(edges.cell_size);
-  writer.put(cells.cell_size);
-  forEachArray(edges, cells, [&writer](const auto& array) { writer.put(array); });
+  writer.put(edges.square_size);
+  writer.put(tree.leaf_size);
+  forEachArray(edges, tree, [&writer](const auto& array) { writer.put(array); });
   writer.put(checksum(writer.content.data(), writer.content.size()));
   return std::move(writer.content);
 }
@@ -126,9 +126,9 @@ SearchIndex parseIndex(const std::string& content, const std::string& file,
   if (reader.take<std::uint32_t>() != kBandBins) reader.fail("another number of angular bins");
   if (reader.take<std::uint64_t>() != map_hash) reader.fail("the index of another map");
   SearchIndex index;
-  index.edges.cell_size = reader.take<double>();
-  index.cells.cell_size = reader.take<double>();
-  forEachArray(index.edges, index.cells, [&reader](auto& array) { reader.take(array); });
+  index.edges.square_size = reader.take<double>();
+  index.tree.leaf_size = reader.take<double>();
+  forEachArray(index.edges, index.tree, [&reader](auto& array) { reader.take(array); });
   if (reader.left() != 0) reader.fail("more than the index follows");
   std::uint64_t stored = 0;
   const std::size_t end = content.size() - kChecksumBytes;

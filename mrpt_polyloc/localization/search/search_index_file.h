@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mrpt_polyloc/localization/search/CellTree.h>
+#include <mrpt_polyloc/localization/search/SearchTree.h>
 #include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
 
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace mrpt_polyloc {
 /// What the certified search prepares for a map.
 struct SearchIndex {
   VisibleEdgeIndex::Lists edges;
-  CellTree::Data cells;
+  SearchTree::Data tree;
 };
 
 /// The index as the content of a file: magic, version, hash of the map, the arrays with their
 /// sizes, and a checksum over all before it. Little-endian.
-std::string serializeIndex(const VisibleEdgeIndex::Lists& edges, const CellTree::Data& cells,
+std::string serializeIndex(const VisibleEdgeIndex::Lists& edges, const SearchTree::Data& tree,
                            std::uint64_t map_hash);
 
 /// \param file its name, for messages \param map_hash PolygonMap::hash()

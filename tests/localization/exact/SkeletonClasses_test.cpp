@@ -1,7 +1,7 @@
 #include "exact_views.h"
 #include "tests/support/map_factories.h"
 #include "tests/support/random_maps.h"
-#include <mrpt_polyloc/localization/exact/SeenPolygon.h>
+#include <mrpt_polyloc/localization/exact/ObservedPolygon.h>
 #include <mrpt_polyloc/localization/exact/SkeletonClasses.h>
 
 #include <gtest/gtest.h>
@@ -155,7 +155,7 @@ TEST(SkeletonClasses, FindTheCellThatAPolygonWasSeenFrom) {
     ViewExpander expander(cells.triangulation(), true);
     for (const TPoint2D& p : test::randomFreePoints(map, 40, random)) {
       const TPose2D pose(p.x, p.y, 0.7);
-      const SeenPolygon seen(test::seenFrom(map, pose), kTolerance);
+      const ObservedPolygon seen(test::seenFrom(map, pose), kTolerance);
       if (!seen.isClear()) continue;  // where the query does not ask the classes
       const std::int32_t cell = cells.locate(p);
       bool is_found = false;

@@ -2,7 +2,7 @@
 #include "tests/support/map_factories.h"
 #include "tests/support/random_maps.h"
 #include <mrpt_polyloc/base/errors.h>
-#include <mrpt_polyloc/localization/exact/SeenPolygon.h>
+#include <mrpt_polyloc/localization/exact/ObservedPolygon.h>
 #include <mrpt_polyloc/localization/exact/SkeletonLocalizer.h>
 
 #include <gtest/gtest.h>
@@ -93,7 +93,7 @@ void expectAnswered(const PolygonMap& map, const SkeletonLocalizer& classes,
   SCOPED_TRACE("from " + std::to_string(pose.x) + " " + std::to_string(pose.y));
   const auto view = seenFrom(map, pose);
   try {
-    const SeenPolygon around(view, ExactLocalizerParams{}.tolerance);
+    const ObservedPolygon around(view, ExactLocalizerParams{}.tolerance);
   } catch (const InvalidParamsError&) {
     return;  // on a wall, up to the tolerance
   }

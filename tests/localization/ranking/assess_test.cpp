@@ -1,7 +1,7 @@
 #include "tests/support/simulated_scans.h"
 #include <mrpt_polyloc/localization/ranking/assess.h>
 #include <mrpt_polyloc/localization/ranking/match_features.h>
-#include <mrpt_polyloc/localization/scan/BeamBlocks.h>
+#include <mrpt_polyloc/localization/scan/BeamSectors.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ class Assess : public ::testing::Test {
   }
 
   PolygonMap map_ = squareMap(5.0);
-  RangePredictor predictor_{Triangulation(map_), RangePredictor::kCellSize, 1};
+  RangePredictor predictor_{Triangulation(map_), RangePredictor::kSquareSize, 1};
   TPose2D truth_{1.5, 2, 0.3}, twin_{3.5, 3, 0.3 + kPi}, wrong_{3.5, 2, 0.3};
   RangeScan scan_ = simulatedScan(map_, truth_);
   ScanCost cost_{predictor_, scan_, {}};
@@ -65,7 +65,7 @@ TEST_F(Assess, ANicheOfAFewBeamsIsNotSure) {
   // Only a niche, seen by some four of 360 beams, tells the pose from its twin.
   const PolygonMap map =
       mapOf({{0, 0}, {5, 0}, {5, 2}, {5.4, 2}, {5.4, 2.2}, {5, 2.2}, {5, 5}, {0, 5}});
-  const RangePredictor predictor(Triangulation(map), RangePredictor::kCellSize, 1);
+  const RangePredictor predictor(Triangulation(map), RangePredictor::kSquareSize, 1);
   const TPose2D truth(1.5, 2.1, 0.3), twin(3.5, 2.9, 0.3 + kPi);
   const RangeScan scan = simulatedScan(map, truth);
   const ScanCost cost(predictor, scan, {});
@@ -77,7 +77,7 @@ TEST_F(Assess, ANicheOfAFewBeamsIsNotSure) {
   ASSERT_GT(second.cost - first.cost, 1e-3);
   const Assessment result = assess({first, second}, scan, cost, params, 20);
   EXPECT_EQ(result.status, LocalizationStatus::ambiguous);
-  EXPECT_LT(result.hypotheses[1].behind, 1.2);  // one sector of 36
+  EXPECT_LT(result.hypotheses[1].z_score, 1.2);  // one sector of 36
 }
 
 TEST_F(Assess, RefusedBelowTheLeastProbability) {
@@ -117,25 +117,25 @@ TEST_F(Assess, FeaturesOfThePerfectAnswer) {
 TEST(MatchFeaturesOf, AHalfHiddenScanByHand) {
   // In the middle of a square of 4 m: four beams along the axes, ranges 2, 1, 2.15 and a no-return.
   const PolygonMap map = squareMap(4.0);
-  const RangePredictor predictor(Triangulation(map), RangePredictor::kCellSize, 1);
+  const RangePredictor predictor(Triangulation(map), RangePredictor::kSquareSize, 1);
   const RangeScan scan({{0.0, 2.0, BeamKind::hit},
                         {kPi / 2, 1.0, BeamKind::hit},
                         {kPi, 2.15, BeamKind::hit},
                         {-kPi / 2, 5.0, BeamKind::no_return}});
   const ScanCost cost(predictor, scan, {});
-  const BeamBlocks blocks(cost.beams());
+  const BeamSectors sectors(cost.beams());
   RankedPose first{{{2, 2, 0}, {}, 3}, 0.08}, second{{{2, 2, 1}, {}, 3}, 0.13};
   first.refined.information.setZero();
   second.refined.information.setZero();
-  const MatchFeatures features = matchFeatures({first, second}, first, cost, blocks);
+  const MatchFeatures features = matchFeatures({first, second}, first, cost, sectors);
   EXPECT_NEAR(features.explained, 2.0 / 3.0, 1e-12);
   EXPECT_NEAR(features.lead, std::log(0.15 / 0.10), 1e-9);
   EXPECT_NEAR(features.seen, (2 + 1 + 2 + 2) / 8.0, 1e-6);
   EXPECT_NEAR(features.heading, std::log(0.1745), 1e-9);  // nothing known but the locality
   // Without a second, one of 0.2 m stands for it: alone is no proof.
-  EXPECT_NEAR(matchFeatures({first}, first, cost, blocks).lead, std::log(0.22 / 0.10), 1e-9);
+  EXPECT_NEAR(matchFeatures({first}, first, cost, sectors).lead, std::log(0.22 / 0.10), 1e-9);
   first.cost = 0.3;
-  EXPECT_EQ(matchFeatures({first}, first, cost, blocks).lead, 0.0);
+  EXPECT_EQ(matchFeatures({first}, first, cost, sectors).lead, 0.0);
 }
 
 TEST(CalibrationDefaults, SignsMakeSense) {

@@ -20,7 +20,7 @@ class CandidateRanking : public ::testing::Test {
   PolygonMap map_ = asymmetricRoom();
   TPose2D truth_{1.52, 2.13, 0.3};
   RangeScan scan_ = simulatedScan(map_, truth_);
-  RangePredictor predictor_{Triangulation(map_), RangePredictor::kCellSize, 1};
+  RangePredictor predictor_{Triangulation(map_), RangePredictor::kSquareSize, 1};
   /// Near the truth from two sides, and elsewhere.
   std::vector<TPose2D> candidates_ = {
       {6.2, 1.0, 2.0}, {1.6, 2.2, 0.35}, {1.4, 2.0, 0.25}, {3.0, 4.5, 1.0}, {4.5, 1.0, -1.0}};
@@ -63,7 +63,7 @@ TEST_F(CandidateRanking, OfNoGoodCandidateIsNoMatch) {
 TEST_F(CandidateRanking, ReturnsNoMoreThanAskedForAndKnowsOfRivalsAllTheSame) {
   // A square room looks the same from four poses.
   const PolygonMap square = squareMap(6.0);
-  const RangePredictor predictor{Triangulation(square), RangePredictor::kCellSize, 1};
+  const RangePredictor predictor{Triangulation(square), RangePredictor::kSquareSize, 1};
   const RangeScan scan = simulatedScan(square, {1.5, 2.2, 0.4});
   RankingParams params;
   params.max_hypotheses = 1;

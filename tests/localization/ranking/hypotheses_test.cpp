@@ -73,7 +73,7 @@ class InASquare : public ::testing::Test {
   }
 
   PolygonMap map_ = squareMap(5.0);
-  RangePredictor predictor_{Triangulation(map_), RangePredictor::kCellSize, 1};
+  RangePredictor predictor_{Triangulation(map_), RangePredictor::kSquareSize, 1};
   TPose2D truth_{1.5, 2, 0.3}, twin_{3.5, 3, 0.3 + kPi}, wrong_{3.5, 2, 0.3};
   RangeScan scan_ = simulatedScan(map_, truth_, {360, 2 * kPi, 80.0, {0, 0}, 0.02});
   ScanCost cost_{predictor_, scan_, {}};
@@ -84,17 +84,17 @@ TEST_F(InASquare, WeightsAreTheSoftmaxOfTheErrorsBehind) {
   params.calibration.weight_decay = 0.3;
   const auto hypotheses = hypothesesOf({at(truth_), at(twin_), at(wrong_)}, params);
   ASSERT_EQ(hypotheses.size(), 3U);
-  EXPECT_EQ(hypotheses[0].behind, 0.0);
+  EXPECT_EQ(hypotheses[0].z_score, 0.0);
   double sum = 0.0;
   for (const Hypothesis& hypothesis : hypotheses) sum += hypothesis.weight;
   EXPECT_NEAR(sum, 1.0, 1e-12);
   for (std::size_t i = 1; i < hypotheses.size(); ++i) {
-    EXPECT_GE(hypotheses[i].behind, hypotheses[i - 1].behind);
-    EXPECT_NEAR(hypotheses[i].weight / hypotheses[0].weight, std::exp(-0.3 * hypotheses[i].behind),
+    EXPECT_GE(hypotheses[i].z_score, hypotheses[i - 1].z_score);
+    EXPECT_NEAR(hypotheses[i].weight / hypotheses[0].weight, std::exp(-0.3 * hypotheses[i].z_score),
                 1e-12);
   }
-  EXPECT_LT(hypotheses[1].behind, 2.0);  // the twin
-  EXPECT_GT(hypotheses[2].behind, 5.0);
+  EXPECT_LT(hypotheses[1].z_score, 2.0);  // the twin
+  EXPECT_GT(hypotheses[2].z_score, 5.0);
 }
 
 TEST_F(InASquare, ErrorsBehindAreThoseOfTheEvidenceBySectors) {
@@ -123,8 +123,8 @@ TEST_F(InASquare, ErrorsBehindAreThoseOfTheEvidenceBySectors) {
   for (const double m : means) squares += (m - middle) * (m - middle);
   const double error = std::sqrt(squares / 35.0 / 36.0);
   const auto hypotheses = hypothesesOf({at(truth_), at(wrong_)});
-  EXPECT_NEAR(hypotheses[1].behind, mean / std::hypot(error, HypothesisParams{}.indifference),
-              1e-6 * hypotheses[1].behind);
+  EXPECT_NEAR(hypotheses[1].z_score, mean / std::hypot(error, HypothesisParams{}.indifference),
+              1e-6 * hypotheses[1].z_score);
 }
 
 TEST_F(InASquare, RankedByTheEvidenceWhateverTheOrder) {
@@ -148,14 +148,14 @@ TEST_F(InASquare, FinerSensorsSayNoMore) {
   const RangeScan coarse = simulatedScan(map_, truth_, {360, 2 * kPi, 80.0});
   const auto behind = [&](const RangeScan& scan) {
     const ScanCost cost(predictor_, scan, {});
-    return toHypotheses({ranked(truth_, 0.0), ranked(wrong_, 0.5)}, scan, cost)[1].behind;
+    return toHypotheses({ranked(truth_, 0.0), ranked(wrong_, 0.5)}, scan, cost)[1].z_score;
   };
   EXPECT_NEAR(behind(fine), behind(coarse), 0.1 * behind(coarse));
 }
 
 TEST(ToHypotheses, PoseIsTheRobots) {
   const PolygonMap map = asymmetricRoom();
-  const RangePredictor predictor(Triangulation(map), RangePredictor::kCellSize, 1);
+  const RangePredictor predictor(Triangulation(map), RangePredictor::kSquareSize, 1);
   const RangeScan scan = simulatedScan(map, {1.5, 2, 0.3}, {360, 2 * kPi, 80.0, {0.4, -0.2}});
   const TPose2D beams(3, 4, 1.2);
   const auto hypothesis = toHypotheses({ranked(beams, 0.1)}, scan, {predictor, scan, {}})[0];

@@ -47,7 +47,7 @@ TEST(CovarianceOfRobot, IsThatOfPosesDrawnForTheSensorAndMovedToTheRobot) {
   Eigen::Matrix3d factor;
   factor << 40, 0, 0, -10, 60, 0, 12, 5, 150;
   const Eigen::Matrix3d information = factor * factor.transpose();
-  // Each of the 36 beams a block of its own.
+  // Each of the 36 beams a sector of its own.
   const Eigen::Matrix3d covariance =
       toEigen(covarianceOfRobot(refined(beams, information, 36), scan, 36, factors(1, 1)));
 
@@ -92,8 +92,8 @@ TEST(CovarianceOfRobot, IsPositiveDefiniteEvenWhereTheScanHoldsNothing) {
 
 TEST(CovarianceOfBeams, BeamsOfABlockInformOnce) {
   const Eigen::Matrix3d information = 1e9 * Eigen::Matrix3d::Identity();
-  const auto variance = [&](std::size_t beams, std::size_t blocks) {
-    return covarianceOfBeams(refined({1, 2, 0.3}, information, beams), blocks)(0, 0);
+  const auto variance = [&](std::size_t beams, std::size_t sectors) {
+    return covarianceOfBeams(refined({1, 2, 0.3}, information, beams), sectors)(0, 0);
   };
   EXPECT_NEAR(variance(360, 36) / variance(36, 36), 10.0, 0.01);
   EXPECT_NEAR(variance(180, 18) / variance(36, 36), 10.0, 0.01);

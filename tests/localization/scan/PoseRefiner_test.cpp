@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 constexpr double kDegree = kPi / 180;
 
 RangePredictor predictorOf(const PolygonMap& map) {
-  return RangePredictor(Triangulation(map), RangePredictor::kCellSize, 1);
+  return RangePredictor(Triangulation(map), RangePredictor::kSquareSize, 1);
 }
 
 Eigen::Matrix3d toEigen(const mrpt::math::CMatrixDouble33& m) {

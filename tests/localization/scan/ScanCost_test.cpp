@@ -13,7 +13,7 @@ TEST(ScanCost, IsTheMeanOfTheRuleOverTheRangesByBruteForce) {
   params.rooms_per_side = 2;
   params.unknown_share = 1.0;
   const PolygonMap map = floorPlan(params, 1);
-  const RangePredictor predictor(Triangulation(map), RangePredictor::kCellSize, 1);
+  const RangePredictor predictor(Triangulation(map), RangePredictor::kSquareSize, 1);
   const BruteForceRays rays(map);
   const RobustCost rule;
   const auto points = randomFreePoints(map, 20, random);
@@ -36,7 +36,7 @@ TEST(ScanCost, IsTheMeanOfTheRuleOverTheRangesByBruteForce) {
 
 TEST(ScanCost, LeavesInvalidBeamsOutAndKeepsTheOrder) {
   const PolygonMap map = squareMap(4.0);
-  const RangePredictor predictor(Triangulation(map), RangePredictor::kCellSize, 1);
+  const RangePredictor predictor(Triangulation(map), RangePredictor::kSquareSize, 1);
   const RangeScan scan({{kPi / 2, 1.75, BeamKind::hit},
                         {0.0, std::nan(""), BeamKind::hit},
                         {0.0, 2.0, BeamKind::hit},
@@ -53,7 +53,7 @@ TEST(ScanCost, LeavesInvalidBeamsOutAndKeepsTheOrder) {
 
 TEST(ScanCost, PolarDistanceIsTheRootMeanSquareOverTheHits) {
   const PolygonMap map = squareMap(4.0);
-  const RangePredictor predictor(Triangulation(map), RangePredictor::kCellSize, 1);
+  const RangePredictor predictor(Triangulation(map), RangePredictor::kSquareSize, 1);
   const RangeScan scan({{kPi / 2, 1.75, BeamKind::hit},
                         {0.0, 2.5, BeamKind::hit},
                         {kPi, 10.0, BeamKind::no_return},
@@ -64,7 +64,7 @@ TEST(ScanCost, PolarDistanceIsTheRootMeanSquareOverTheHits) {
 
 TEST(ScanCost, PolarDistanceStaysFiniteWhereNoWallIsMet) {
   const PolygonMap map = withOpenEdges(squareMap(4.0), 1.0, 1);
-  const RangePredictor predictor(Triangulation(map), RangePredictor::kCellSize, 1);
+  const RangePredictor predictor(Triangulation(map), RangePredictor::kSquareSize, 1);
   const auto distance = [&](double range) {
     return ScanCost(predictor, RangeScan({{0.0, range, BeamKind::hit}}), {})
         .polarDistance({2, 2, 0});
@@ -75,7 +75,7 @@ TEST(ScanCost, PolarDistanceStaysFiniteWhereNoWallIsMet) {
 
 TEST(ScanCost, OfNoBeamsIsNothing) {
   const PolygonMap map = squareMap(4.0);
-  const RangePredictor predictor(Triangulation(map), RangePredictor::kCellSize, 1);
+  const RangePredictor predictor(Triangulation(map), RangePredictor::kSquareSize, 1);
   const ScanCost cost(predictor, RangeScan({}), {});
   EXPECT_EQ(cost.beamCount(), 0U);
   EXPECT_EQ(cost.mean({2, 2, 0}), 0.0);

@@ -1,7 +1,7 @@
 #include "tests/support/random_maps.h"
 #include "tests/support/simulated_scans.h"
-#include <mrpt_polyloc/localization/search/cell_band_cost.h>
-#include <mrpt_polyloc/localization/search/cell_view_cost.h>
+#include <mrpt_polyloc/localization/search/bound_costs.h>
+#include <mrpt_polyloc/localization/search/view_cost.h>
 
 #include <gtest/gtest.h>
 
@@ -59,7 +59,7 @@ TEST(BandQuery, OfNothingHasNoBeams) {
 struct RandomBands {
   RandomBands(std::mt19937& random, bool has_open) {
     for (auto* values : {&near_low, &wall_high, &gap_low, &gap_high}) {
-      values->resize(CellTree::kStride + 1);
+      values->resize(SearchTree::kStride + 1);
     }
     for (std::size_t b = 0; b < kBandBins; ++b) {
       std::vector<int> sorted(4);
@@ -73,7 +73,7 @@ struct RandomBands {
       if (has_open && random() % 2 == 0) gap_low[b] |= 1;
     }
     for (auto* values : {&near_low, &wall_high, &gap_low, &gap_high}) {
-      for (std::size_t b = kBandBins; b <= CellTree::kStride; ++b) {
+      for (std::size_t b = kBandBins; b <= SearchTree::kStride; ++b) {
         (*values)[b] = (*values)[b - kBandBins];
       }
     }
@@ -81,11 +81,11 @@ struct RandomBands {
              wall_high.data(),
              gap_low.data(),
              gap_high.data(),
-             random() % RangeBytes::kScales,
+             random() % QuantizedRange::kScales,
              has_open};
   }
   std::vector<std::uint8_t> near_low, wall_high, gap_low, gap_high;
-  CellTree::Bands bands{};
+  SearchTree::Bands bands{};
 };
 
 /// The bin that a beam meets first at a heading.
@@ -100,9 +100,9 @@ std::size_t binOf(const Beam& beam, const BandQuery& query, std::size_t heading)
 /// The lower bound beam by beam, in plain arithmetic on units.
 unsigned plainBound(const RandomBands& r, const BandQuery& query, std::size_t heading,
                     const RobustCostParams& cost) {
-  const double unit = RangeBytes::unit(r.bands.scale);
+  const double unit = QuantizedRange::unit(r.bands.scale);
   const auto units = [&](double meters) {
-    return std::min(static_cast<int>(std::floor(meters / unit)), RangeBytes::kGreatest);
+    return std::min(static_cast<int>(std::floor(meters / unit)), QuantizedRange::kGreatest);
   };
   int sum = 0;
   for (const Beam& beam : query.beams) {
@@ -128,7 +128,7 @@ unsigned plainBound(const RandomBands& r, const BandQuery& query, std::size_t he
   return static_cast<unsigned>(sum) << r.bands.scale;
 }
 
-unsigned boundOf(const CellTree::Bands& bands, const BandQuery& query, std::size_t heading) {
+unsigned boundOf(const SearchTree::Bands& bands, const BandQuery& query, std::size_t heading) {
   // In the company of others, and none of them changes it.
   const auto bin = static_cast<std::uint32_t>(heading);
   const std::uint32_t headings[] = {(bin + 77) % 180, bin, (bin + 2) % 180};
@@ -163,14 +163,14 @@ TEST(BandQuery, BoundsAsBeamByBeam) {
   }
 }
 
-/// The node of a level that a cell is in.
-std::size_t ancestor(const CellTree& tree, std::size_t cell, std::size_t level) {
+/// The node of a level that a leaf is in.
+std::size_t ancestor(const SearchTree& tree, std::size_t leaf, std::size_t level) {
   for (std::size_t l = 1; l <= level; ++l) {
     std::size_t node = 0;
-    while (tree.nodes(l)[node].first_child + tree.nodes(l)[node].child_count <= cell) ++node;
-    cell = node;
+    while (tree.nodes(l)[node].first_child + tree.nodes(l)[node].child_count <= leaf) ++node;
+    leaf = node;
   }
-  return cell;
+  return leaf;
 }
 
 /// No pose of a node costs less than the node's bound.
@@ -183,7 +183,7 @@ TEST(BandQuery, BoundsNeverExceedTheCostOfAPose) {
     const PolygonMap map = floorPlan(randomParams(random), seed);
     const Triangulation triangulation(map);
     const RangePredictor predictor(triangulation, 0.5, 1);
-    const CellTree tree(triangulation, predictor, {0.25, 1});
+    const SearchTree tree(triangulation, predictor, {0.25, 1});
     const BruteForceRays rays(map);
     ScanOptions options;
     options.beams = seed % 2 == 0 ? 360 : 227;
@@ -192,16 +192,16 @@ TEST(BandQuery, BoundsNeverExceedTheCostOfAPose) {
     const TPoint2D place = randomFreePoints(map, 1, random).front();
     const BandQuery query(simulatedScan(map, {place.x, place.y, 1.0}, options), params);
     for (int i = 0; i < 300; ++i) {
-      const std::size_t cell = random() % tree.nodes(0).size();
-      TPoint2D p = tree.middle(cell);
-      p += (tree.polygon(cell)[random() % tree.polygonSize(cell)] - p) * (0.999 * unit(random));
-      // The cell, or the block it is in, and any window that holds the heading.
-      const std::size_t level = random() % CellTree::kLevels;
-      const std::size_t node = ancestor(tree, cell, level);
+      const std::size_t leaf = random() % tree.nodes(0).size();
+      TPoint2D p = tree.middle(leaf);
+      p += (tree.polygon(leaf)[random() % tree.polygonSize(leaf)] - p) * (0.999 * unit(random));
+      // The leaf, or the block it is in, and any window that holds the heading.
+      const std::size_t level = random() % SearchTree::kLevels;
+      const std::size_t node = ancestor(tree, leaf, level);
       const std::size_t first = random() % kBandBins;
       const double phi =
           query.heading(static_cast<double>(first) +
-                        unit(random) * static_cast<double>(CellTree::kWindow[level]));
+                        unit(random) * static_cast<double>(SearchTree::kWindow[level]));
       double sum = 0.0;
       for (const Beam& beam : query.beams) {
         const RayHit hit = rays.cast(p, phi + beam.bearing);
@@ -218,7 +218,7 @@ TEST(BandQuery, AViewCostsWhatItsRangesCost) {
   std::mt19937 random(23);
   const RobustCostParams params{1.2, 2.0, 0.6, 0.3, 0.8};
   const RobustCost cost(params);
-  std::vector<std::uint16_t> near(CellTree::kStride + 1), wall(CellTree::kStride + 1);
+  std::vector<std::uint16_t> near(SearchTree::kStride + 1), wall(SearchTree::kStride + 1);
   for (int i = 0; i < 200; ++i) {
     for (std::size_t b = 0; b < near.size(); ++b) {
       wall[b] = static_cast<std::uint16_t>(b < kBandBins ? random() % 1500 : wall[b - kBandBins]);
@@ -239,7 +239,7 @@ TEST(BandQuery, AViewCostsWhatItsRangesCost) {
     for (const Beam& beam : query.beams) {
       const std::size_t bin = binOf(beam, query, heading);
       const auto meters = [](unsigned units) {
-        return static_cast<float>(units * CellTree::kViewUnit);
+        return static_cast<float>(units * SearchTree::kViewUnit);
       };
       const bool is_open = near[bin] < wall[bin];
       sum += static_cast<double>(

@@ -1,6 +1,6 @@
 #include "tests/support/random_maps.h"
 #include "tests/support/simulated_scans.h"
-#include <mrpt_polyloc/geometry/convex_cells.h>
+#include <mrpt_polyloc/geometry/convex_pieces.h>
 #include <mrpt_polyloc/localization/search/RangeBands.h>
 
 #include <gtest/gtest.h>
@@ -14,19 +14,19 @@
 namespace mrpt_polyloc::test {
 namespace {
 
-/// A map with the bands' index over squares twice as large as the cells.
+/// A map with the bands' index over squares twice as large as the leaves.
 struct MapWithBands {
   explicit MapWithBands(PolygonMap polygon_map, double size)
       : map(std::move(polygon_map)),
         triangulation(map),
         index(triangulation, 2 * size, 1),
-        cells(convexCells(triangulation, triangulation.box().min, size, 1)),
+        leaves(convexPieces(triangulation, triangulation.box().min, size, 1)),
         rays(map) {}
 
   PolygonMap map;
   Triangulation triangulation;
   VisibleEdgeIndex index;
-  ConvexCells cells;
+  ConvexPieces leaves;
   BruteForceRays rays;
 };
 
@@ -45,7 +45,7 @@ TPoint2D pointIn(const TPoint2D* polygon, std::size_t count, std::mt19937& rando
   return p * (1.0 / sum);
 }
 
-/// How a band holds what is seen from points of its cell.
+/// How a band holds what is seen from points of its leaf.
 struct Tally {
   std::size_t rays = 0;
   std::size_t outside = 0;
@@ -72,23 +72,23 @@ void expectOutside(double range, float low, float high, Tally& tally) {
   tally.worst = std::max(tally.worst, off);
 }
 
-Tally checkCells(const MapWithBands& built, std::size_t cells, std::uint32_t seed) {
+Tally checkCells(const MapWithBands& built, std::size_t leaves, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   RangeBandFinder finder(built.index);
   RangeBands bands;
   Tally tally;
-  for (std::size_t i = 0; i < cells; ++i) {
-    const auto& cell = built.cells.cells[random() % built.cells.cells.size()];
-    const TPoint2D* polygon = &built.cells.vertices[cell.first];
-    finder.find(polygon, cell.count, bands);
+  for (std::size_t i = 0; i < leaves; ++i) {
+    const auto& leaf = built.leaves.pieces[random() % built.leaves.pieces.size()];
+    const TPoint2D* polygon = &built.leaves.vertices[leaf.first];
+    finder.find(polygon, leaf.count, bands);
     TPoint2D middle{0, 0};
-    for (std::size_t k = 0; k < cell.count; ++k) {
-      middle += polygon[k] * (1.0 / static_cast<double>(cell.count));
+    for (std::size_t k = 0; k < leaf.count; ++k) {
+      middle += polygon[k] * (1.0 / static_cast<double>(leaf.count));
     }
     for (int k = 0; k < 60; ++k) {
       // A little inside: on the border itself the nearest wall may be on either side.
-      const TPoint2D p = middle + (pointIn(polygon, cell.count, random) - middle) * (1.0 - 1e-5);
+      const TPoint2D p = middle + (pointIn(polygon, leaf.count, random) - middle) * (1.0 - 1e-5);
       const std::size_t bin = random() % kBandBins;
       const double angle = (static_cast<double>(bin) + unit(random)) * kBandBinWidth;
       const RayHit hit = built.rays.cast(p, angle);
@@ -135,9 +135,9 @@ TEST(RangeBands, TellANearWallFromWhatIsSeenPastItsEnd) {
   // From the left, the bin past the tip of the screen shows the screen at 2 m or the wall at 6 m.
   const PolygonMap map = mapOf(rectangle(-4, -4, 6, 4), {rectangle(2.0, -4.0 + 1e-3, 2.05, 0.0)});
   const MapWithBands built(map, 0.25);
-  const TPoint2D cell[] = {{-0.05, -0.05}, {0.05, -0.05}, {0.05, 0.05}, {-0.05, 0.05}};
+  const TPoint2D leaf[] = {{-0.05, -0.05}, {0.05, -0.05}, {0.05, 0.05}, {-0.05, 0.05}};
   RangeBands bands;
-  RangeBandFinder(built.index).find(cell, 4, bands);
+  RangeBandFinder(built.index).find(leaf, 4, bands);
   for (const std::size_t bin : {std::size_t{0}, kBandBins - 1}) {
     EXPECT_NEAR(bands.wall_low[bin], 1.95, 0.01);
     EXPECT_NEAR(bands.wall_high[bin], 6.06, 0.02);

@@ -2,7 +2,7 @@
 
 #include <mrpt_polyloc/localization/scan/PosePrior.h>
 #include <mrpt_polyloc/localization/search/BandQuery.h>
-#include <mrpt_polyloc/localization/search/CellTree.h>
+#include <mrpt_polyloc/localization/search/SearchTree.h>
 
 #include <mrpt/math/TPoint2D.h>
 
@@ -14,9 +14,9 @@
 
 namespace mrpt_polyloc {
 
-/// The way down a CellTree with a limit that rises: nodes bounded above the limit wait until it
+/// The way down a SearchTree with a limit that rises: nodes bounded above the limit wait until it
 /// reaches them, so that nothing is done twice; what the prior does not allow is left out.
-class CellDescent {
+class TreeDescent {
  public:
   /// A node of the tree and a window of headings, the first bin of which is `heading`.
   struct Node {
@@ -31,8 +31,8 @@ class CellDescent {
   struct Workspace {
     /// Above the limit, by level and by the bits of the bound: as the limit rises, whole vectors
     /// come within it.
-    std::array<std::array<std::vector<Node>, kBuckets>, CellTree::kLevels> waiting;
-    std::array<std::vector<Node>, CellTree::kLevels> within;  ///< to be expanded, by level
+    std::array<std::array<std::vector<Node>, kBuckets>, SearchTree::kLevels> waiting;
+    std::array<std::vector<Node>, SearchTree::kLevels> within;  ///< to be expanded, by level
     std::vector<std::uint32_t> headings;  ///< allowed windows that are to be bounded
     std::vector<unsigned> bounds;         ///< of these
     std::vector<Node> grouped;
@@ -41,20 +41,20 @@ class CellDescent {
 
   /// Bounds all nodes of the top level. Keeps references. \param sensor the beams' origin in the
   /// robot frame
-  CellDescent(const CellTree& tree, const BandQuery& query, const PosePrior& prior,
+  TreeDescent(const SearchTree& tree, const BandQuery& query, const PosePrior& prior,
               const mrpt::math::TPoint2D& sensor, Workspace& workspace);
 
   /// Nothing waits any more: every pose that the prior allows is in a leaf, or there is none.
   bool isDone() const;
 
-  /// Raises the limit: appends the (cell, heading) pairs bounded within it that were not before.
+  /// Raises the limit: appends the (leaf, heading) pairs bounded within it that were not before.
   /// `is_spent` is asked now and then; true ends it early, with the leaves found by then.
   /// \returns false if so: there may be others within the limit
-  bool raise(unsigned limit, const std::function<bool()>& is_spent, std::vector<Node>& leaves);
+  bool expandUpTo(unsigned limit, const std::function<bool()>& is_spent, std::vector<Node>& leaves);
 
   /// For when there is no time: the leaves that a descent by the `width` least bounds of each level
   /// comes to.
-  void dive(std::size_t width, std::vector<Node>& leaves);
+  void greedyDescent(std::size_t width, std::vector<Node>& leaves);
 
   std::size_t evaluated() const { return evaluated_; }  ///< nodes bounded so far
 
@@ -69,11 +69,11 @@ class CellDescent {
   bool allowsPosition(std::size_t level, std::uint32_t index) const;
   bool allowsHeading(std::size_t level, std::uint32_t heading) const;
 
-  const CellTree* tree_;
+  const SearchTree* tree_;
   const BandQuery* query_;
   const PosePrior* prior_;
   double sensor_distance_;
-  std::array<std::vector<char>, CellTree::kLevels> allowed_;  ///< headings, by level
+  std::array<std::vector<char>, SearchTree::kLevels> allowed_;  ///< headings, by level
   Workspace* workspace_;
   unsigned limit_ = 0;
   std::size_t evaluated_ = 0;

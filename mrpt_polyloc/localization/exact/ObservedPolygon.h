@@ -13,7 +13,7 @@ namespace mrpt_polyloc {
 ///
 /// An edge of which the farther end lies within `tolerance` of the ray through the nearer one is a
 /// window, or too narrow to matter; all others are walls, seen from their free side.
-class SeenPolygon {
+class ObservedPolygon {
  public:
   /// A wall as it is seen: on the line normal . x = distance, over the directions from `begin` to
   /// the begin of the next wall.
@@ -29,7 +29,7 @@ class SeenPolygon {
   /// are dropped. \throws InvalidParamsError with coordinates if fewer than three are left, if one
   /// is not finite, or if the polygon does not run once, counterclockwise and without turning back,
   /// around the origin (not star-shaped, or the origin outside or on the border). O(n).
-  SeenPolygon(const std::vector<TPoint2D>& vertices, double tolerance);
+  ObservedPolygon(const std::vector<TPoint2D>& vertices, double tolerance);
 
   /// In counterclockwise order.
   const std::vector<Wall>& walls() const { return walls_; }
@@ -62,11 +62,11 @@ class SeenPolygon {
 /// Whether two views agree: in every direction, the point seen in one lies within `limit` of the
 /// line seen in the other, but for sectors that are at most a few `limit` wide where the nearer
 /// view ends (a window that turns with the observer, a gap that is just closed). O(p + q).
-bool agree(const SeenPolygon& a, const SeenPolygon& b, double limit);
+bool agree(const ObservedPolygon& a, const ObservedPolygon& b, double limit);
 
 /// The same of views in pieces, of which one may be of limited range: where it has an arc, the
 /// other has one too, or goes on at least as far.
-bool agree(const std::vector<SeenPolygon::Wall>& a, const std::vector<SeenPolygon::Wall>& b,
+bool agree(const std::vector<ObservedPolygon::Wall>& a, const std::vector<ObservedPolygon::Wall>& b,
            double limit);
 
 }  // namespace mrpt_polyloc

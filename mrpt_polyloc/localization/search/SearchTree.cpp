@@ -1,8 +1,8 @@
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/base/params_check.h>
-#include <mrpt_polyloc/geometry/convex_cells.h>
-#include <mrpt_polyloc/localization/search/CellTree.h>
-#include <mrpt_polyloc/localization/search/RangeBytes.h>
+#include <mrpt_polyloc/geometry/convex_pieces.h>
+#include <mrpt_polyloc/localization/search/QuantizedRange.h>
+#include <mrpt_polyloc/localization/search/SearchTree.h>
 #include <mrpt_polyloc/localization/search/morton_code.h>
 
 #include <tbb/blocked_range.h>
@@ -18,7 +18,7 @@
 namespace mrpt_polyloc {
 namespace {
 
-constexpr std::size_t kStride = CellTree::kStride;
+constexpr std::size_t kStride = SearchTree::kStride;
 constexpr std::uint8_t kOpenBit = 1;
 
 /// The finest scale that tells most of a node's ranges.
@@ -30,8 +30,9 @@ std::uint16_t scaleOf(const NodeBands& bands) {
   }
   std::nth_element(farthest.begin(), farthest.begin() + kTold, farthest.end());
   std::uint16_t scale = 0;
-  while (scale + 1U < RangeBytes::kScales &&
-         static_cast<double>(farthest[kTold]) > RangeBytes::unit(scale) * RangeBytes::kGreatest) {
+  while (scale + 1U < QuantizedRange::kScales &&
+         static_cast<double>(farthest[kTold]) >
+             QuantizedRange::unit(scale) * QuantizedRange::kGreatest) {
     ++scale;
   }
   return scale;
@@ -47,7 +48,7 @@ double increased(float range) {
 
 /// Up to an even byte, its lowest bit then saying whether an edge may be open.
 std::uint8_t withOpenBit(std::uint8_t even_or_odd, bool may_be_open) {
-  const int even = std::min((even_or_odd + 1) / 2 * 2, RangeBytes::kGreatest - 1);
+  const int even = std::min((even_or_odd + 1) / 2 * 2, QuantizedRange::kGreatest - 1);
   return static_cast<std::uint8_t>(even | (may_be_open ? kOpenBit : 0));
 }
 
@@ -73,44 +74,44 @@ BoundingBox unionOf(const BoundingBox& a, const BoundingBox& b) {
 
 }  // namespace
 
-void CellTreeParams::check() const {
-  requireInRange("cell_size", cell_size, 0.01, 10.0);
+void SearchTreeParams::check() const {
+  requireInRange("leaf_size", leaf_size, 0.01, 10.0);
   requireInRange("threads", threads, 0.0, 1024.0);
 }
 
-CellTree::CellTree(const Triangulation& triangulation, const RangePredictor& predictor,
-                   const CellTreeParams& params) {
+SearchTree::SearchTree(const Triangulation& triangulation, const RangePredictor& predictor,
+                       const SearchTreeParams& params) {
   params.check();
-  data_.cell_size = params.cell_size;
+  data_.leaf_size = params.leaf_size;
   const BoundingBox& box = triangulation.box();
   constexpr double kMostSquares = 1 << 30;
   if ((box.max.x - box.min.x) * (box.max.y - box.min.y) >
-      kMostSquares * params.cell_size * params.cell_size) {
-    throw InvalidParamsError("cell_size: " + std::to_string(params.cell_size) +
-                             " gives too many cells for a map of this size");
+      kMostSquares * params.leaf_size * params.leaf_size) {
+    throw InvalidParamsError("leaf_size: " + std::to_string(params.leaf_size) +
+                             " gives too many leaves for a map of this size");
   }
-  layOut(predictor.index(), takeCells(triangulation, params.threads));
+  layOut(predictor.index(), takeLeaves(triangulation, params.threads));
   fill(predictor, params.threads);
 }
 
-CellTree::CellTree(Data data) : data_(std::move(data)) {
+SearchTree::SearchTree(Data data) : data_(std::move(data)) {
   const auto require = [](bool is_met, const char* what) {
-    if (!is_met) throw InvalidMapError(std::string("cell tree: bad ") + what);
+    if (!is_met) throw InvalidMapError(std::string("search tree: bad ") + what);
   };
-  const std::size_t cells = data_.levels[0].nodes.size();
-  require(data_.cell_size > 0.0, "cell size");
-  require(data_.first_vertex.size() == cells + 1 && data_.first_vertex.front() == 0 &&
+  const std::size_t leaves = data_.levels[0].nodes.size();
+  require(data_.leaf_size > 0.0, "leaf size");
+  require(data_.first_vertex.size() == leaves + 1 && data_.first_vertex.front() == 0 &&
               data_.first_vertex.back() == data_.vertices.size() &&
               std::is_sorted(data_.first_vertex.begin(), data_.first_vertex.end()),
           "polygons");
-  require(data_.views.size() == cells * kViewArrays * kStride + 1, "views");
-  for (std::size_t i = 0; i < cells; ++i) require(polygonSize(i) >= 3, "polygons");
+  require(data_.views.size() == leaves * kViewArrays * kStride + 1, "views");
+  for (std::size_t i = 0; i < leaves; ++i) require(polygonSize(i) >= 3, "polygons");
   for (std::size_t level = 0; level < kLevels; ++level) {
     const Level& l = data_.levels[level];
     require(l.boxes.size() == l.nodes.size(), "boxes");
     require(l.codes.size() == l.nodes.size() * kArrays * kStride + 1, "arrays");
     for (const Node& node : l.nodes) {
-      require(node.scale < RangeBytes::kScales, "scale");
+      require(node.scale < QuantizedRange::kScales, "scale");
       require(level == 0 || std::size_t{node.first_child} + node.child_count <=
                                 data_.levels[level - 1].nodes.size(),
               "children");
@@ -118,38 +119,38 @@ CellTree::CellTree(Data data) : data_(std::move(data)) {
   }
 }
 
-/// Cells in the order of their blocks.
-CellTree::Squares CellTree::takeCells(const Triangulation& triangulation, int threads) {
-  const ConvexCells found =
-      convexCells(triangulation, triangulation.box().min, data_.cell_size, threads);
+/// Leaves in the order of their blocks.
+SearchTree::Squares SearchTree::takeLeaves(const Triangulation& triangulation, int threads) {
+  const ConvexPieces found =
+      convexPieces(triangulation, triangulation.box().min, data_.leaf_size, threads);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
-  for (std::size_t i = 0; i < found.cells.size(); ++i) {
-    const ConvexCells::Cell& cell = found.cells[i];
+  for (std::size_t i = 0; i < found.pieces.size(); ++i) {
+    const ConvexPieces::Piece& leaf = found.pieces[i];
     order.emplace_back(
-        mortonCode(static_cast<std::uint32_t>(cell.column), static_cast<std::uint32_t>(cell.row)),
+        mortonCode(static_cast<std::uint32_t>(leaf.column), static_cast<std::uint32_t>(leaf.row)),
         static_cast<std::uint32_t>(i));
   }
   std::sort(order.begin(), order.end());
   Squares squares;
   data_.vertices.reserve(found.vertices.size());
   for (const auto& [code, i] : order) {
-    const ConvexCells::Cell& cell = found.cells[i];
-    squares.emplace_back(cell.column, cell.row);
+    const ConvexPieces::Piece& leaf = found.pieces[i];
+    squares.emplace_back(leaf.column, leaf.row);
     data_.first_vertex.push_back(static_cast<std::uint32_t>(data_.vertices.size()));
-    const auto first = found.vertices.begin() + cell.first;
-    data_.vertices.insert(data_.vertices.end(), first, first + cell.count);
-    data_.levels[0].boxes.push_back(boxOf(&data_.vertices[data_.first_vertex.back()], cell.count));
+    const auto first = found.vertices.begin() + leaf.first;
+    data_.vertices.insert(data_.vertices.end(), first, first + leaf.count);
+    data_.levels[0].boxes.push_back(boxOf(&data_.vertices[data_.first_vertex.back()], leaf.count));
   }
   data_.first_vertex.push_back(static_cast<std::uint32_t>(data_.vertices.size()));
   return squares;
 }
 
 /// The nodes of all levels, with room for their arrays.
-void CellTree::layOut(const VisibleEdgeIndex& index, Squares squares) {
+void SearchTree::layOut(const VisibleEdgeIndex& index, Squares squares) {
   Squares places = std::move(squares);
-  for (std::size_t cell = 0; cell < places.size(); ++cell) {
-    const std::int64_t number = index.cellNumber(middle(cell));
-    const bool has_open = number < 0 || index.cell(number).open_runs > 0;
+  for (std::size_t leaf = 0; leaf < places.size(); ++leaf) {
+    const std::int64_t number = index.squareNumber(middle(leaf));
+    const bool has_open = number < 0 || index.edgeRuns(number).open_runs > 0;
     data_.levels[0].nodes.push_back({0, 0, static_cast<std::uint16_t>(has_open ? 1 : 0), 0});
   }
   for (std::size_t level = 1; level < kLevels; ++level) {
@@ -157,7 +158,7 @@ void CellTree::layOut(const VisibleEdgeIndex& index, Squares squares) {
     Level& here = data_.levels[level];
     Squares blocks;
     for (std::size_t i = 0; i < below.nodes.size(); ++i) {
-      // Level 1 takes squares, of which several cells may lie in one.
+      // Level 1 takes squares, of which several leaves may lie in one.
       const std::pair<std::int32_t, std::int32_t> block{places[i].first >> 1,
                                                         places[i].second >> 1};
       if (blocks.empty() || blocks.back() != block) {
@@ -178,7 +179,7 @@ void CellTree::layOut(const VisibleEdgeIndex& index, Squares squares) {
   data_.views.resize(data_.levels[0].nodes.size() * kViewArrays * kStride + 1);
 }
 
-void CellTree::storeBands(const NodeBands& bands, std::size_t level, std::size_t node) {
+void SearchTree::storeBands(const NodeBands& bands, std::size_t level, std::size_t node) {
   Level& l = data_.levels[level];
   Node& n = l.nodes[node];
   n.scale = scaleOf(bands);
@@ -188,19 +189,19 @@ void CellTree::storeBands(const NodeBands& bands, std::size_t level, std::size_t
   std::uint8_t* const gap_high = gap_low + kStride;
   for (std::size_t b = 0; b < kBandBins; ++b) {
     const BinBand& band = bands[b];
-    near_low[b] = RangeBytes::down(lessened(band.near_low), n.scale);
-    wall_high[b] = RangeBytes::up(increased(band.wall_high), n.scale);
-    const std::uint8_t low =
-        band.hasGap() ? RangeBytes::up(increased(band.gap_low), n.scale) : RangeBytes::kGreatest;
+    near_low[b] = QuantizedRange::down(lessened(band.near_low), n.scale);
+    wall_high[b] = QuantizedRange::up(increased(band.wall_high), n.scale);
+    const std::uint8_t low = band.hasGap() ? QuantizedRange::up(increased(band.gap_low), n.scale)
+                                           : QuantizedRange::kGreatest;
     gap_low[b] = withOpenBit(low, band.may_be_open);
-    gap_high[b] = band.hasGap() ? RangeBytes::down(lessened(band.gap_high), n.scale) : 0;
+    gap_high[b] = band.hasGap() ? QuantizedRange::down(lessened(band.gap_high), n.scale) : 0;
     if (gap_high[b] <= gap_low[b]) gap_high[b] = 0;
   }
   for (std::size_t array = 0; array < kArrays; ++array) repeat(near_low + array * kStride);
 }
 
-void CellTree::storeView(const PredictedRanges& ranges, std::size_t cell) {
-  std::uint16_t* const near = &data_.views[cell * kViewArrays * kStride];
+void SearchTree::storeView(const PredictedRanges& ranges, std::size_t leaf) {
+  std::uint16_t* const near = &data_.views[leaf * kViewArrays * kStride];
   std::uint16_t* const wall = near + kStride;
   const auto in_units = [](float range) {
     constexpr double kMost = 65535.0;
@@ -214,21 +215,21 @@ void CellTree::storeView(const PredictedRanges& ranges, std::size_t cell) {
   repeat(wall);
 }
 
-void CellTree::fill(const RangePredictor& predictor, int threads) {
+void SearchTree::fill(const RangePredictor& predictor, int threads) {
   std::vector<double> bearings(kBandBins);
   for (std::size_t b = 0; b < kBandBins; ++b) bearings[b] = static_cast<double>(b) * kBandBinWidth;
   const BeamPattern pattern(bearings);
   const auto build = [&](std::size_t first, std::size_t last) {
     RangeBandFinder finder(predictor.index());
-    RangeBands cell_ranges;
+    RangeBands ranges_of_leaf;
     PredictedRanges view;
     // Depth first: what a node hands up is over windows of its own level's width.
     const auto visit = [&](const auto& self, std::size_t level, std::size_t node,
                            NodeBands& bands) -> void {
       std::size_t window = 1;
       if (level == 0) {
-        finder.find(polygon(node), polygonSize(node), cell_ranges);
-        bandsOfCell(cell_ranges, bands);
+        finder.find(polygon(node), polygonSize(node), ranges_of_leaf);
+        bandsOfLeaf(ranges_of_leaf, bands);
       } else {
         const Node& n = data_.levels[level].nodes[node];
         NodeBands child;
@@ -255,12 +256,12 @@ void CellTree::fill(const RangePredictor& predictor, int threads) {
   });
 }
 
-CellTree::View CellTree::middleView(std::size_t cell) const {
-  const std::uint16_t* near = &data_.views[cell * kViewArrays * kStride];
+SearchTree::View SearchTree::middleView(std::size_t leaf) const {
+  const std::uint16_t* near = &data_.views[leaf * kViewArrays * kStride];
   return {near, near + kStride};
 }
 
-CellTree::Bands CellTree::bands(std::size_t level, std::size_t node) const {
+SearchTree::Bands SearchTree::bands(std::size_t level, std::size_t node) const {
   const Level& l = data_.levels[level];
   const Node& n = l.nodes[node];
   const std::uint8_t* first = &l.codes[node * kArrays * kStride];
@@ -268,13 +269,13 @@ CellTree::Bands CellTree::bands(std::size_t level, std::size_t node) const {
           n.scale, n.has_open != 0};
 }
 
-TPoint2D CellTree::middle(std::size_t cell) const {
-  const TPoint2D* p = polygon(cell);
-  const std::size_t count = polygonSize(cell);
+TPoint2D SearchTree::middle(std::size_t leaf) const {
+  const TPoint2D* p = polygon(leaf);
+  const std::size_t count = polygonSize(leaf);
   return std::accumulate(p, p + count, TPoint2D{0, 0}) * (1.0 / static_cast<double>(count));
 }
 
-std::size_t CellTree::bytes() const {
+std::size_t SearchTree::bytes() const {
   std::size_t sum = data_.vertices.size() * sizeof(TPoint2D) +
                     data_.views.size() * sizeof(std::uint16_t) +
                     data_.first_vertex.size() * sizeof(std::uint32_t);

@@ -11,17 +11,17 @@ namespace mrpt_polyloc {
 /// By how much one pose explains a scan worse than another, and how sure that is.
 struct PairedDifference {
   double mean = 0.0;            ///< over the beams [m]
-  double standard_error = 0.0;  ///< of the mean, by the scatter among blocks of beams [m]
+  double standard_error = 0.0;  ///< of the mean, by the scatter among sectors of beams [m]
 };
 
 /// The beams of a scan in sectors of ten degrees. Neighbouring beams hit the same objects, so that
 /// not beams but sectors are the independent observations, however finely a sensor resolves them.
-class BeamBlocks {
+class BeamSectors {
  public:
   static constexpr std::size_t kSectors = 36;  ///< of the whole circle
 
   /// \param beams those whose costs are compared, with finite bearings
-  explicit BeamBlocks(const std::vector<Beam>& beams);
+  explicit BeamSectors(const std::vector<Beam>& beams);
 
   /// Sectors that hold a beam.
   std::size_t count() const { return sizes_.size(); }
@@ -31,8 +31,8 @@ class BeamBlocks {
   PairedDifference difference(const std::vector<float>& a, const std::vector<float>& b) const;
 
  private:
-  std::vector<std::uint8_t> block_of_;  ///< of each beam
-  std::vector<double> sizes_;           ///< beams of each block
+  std::vector<std::uint8_t> sector_of_;  ///< of each beam
+  std::vector<double> sizes_;            ///< beams of each sector
 };
 
 }  // namespace mrpt_polyloc

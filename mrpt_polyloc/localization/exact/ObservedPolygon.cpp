@@ -1,6 +1,6 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
-#include <mrpt_polyloc/localization/exact/SeenPolygon.h>
+#include <mrpt_polyloc/localization/exact/ObservedPolygon.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ std::string toText(const TPoint2D& p) {
 }
 
 /// Whether the point seen in direction u in one piece lies within the limit of the other.
-bool agreeAlong(const TPoint2D& u, const SeenPolygon::Wall& a, const SeenPolygon::Wall& b,
+bool agreeAlong(const TPoint2D& u, const ObservedPolygon::Wall& a, const ObservedPolygon::Wall& b,
                 double limit) {
   if (a.is_arc && b.is_arc) return std::abs(a.distance - b.distance) <= limit;
   if (b.is_arc) return agreeAlong(u, b, a, limit);
@@ -35,19 +35,19 @@ bool agreeAlong(const TPoint2D& u, const SeenPolygon::Wall& a, const SeenPolygon
 
 }  // namespace
 
-bool SeenPolygon::isWithin(double length, double limit) {
+bool ObservedPolygon::isWithin(double length, double limit) {
   if (length > 1e-2 * tolerance_ && length < 4.0 * limit) is_clear_ = false;
   return length <= limit;
 }
 
 /// Whether b lies between a and c, within the tolerance of their line.
-bool SeenPolygon::isBetween(const TPoint2D& a, const TPoint2D& b, const TPoint2D& c) {
+bool ObservedPolygon::isBetween(const TPoint2D& a, const TPoint2D& b, const TPoint2D& c) {
   const TPoint2D ac = c - a;
   return dot(b - a, c - b) > 0.0 &&
          isWithin(std::abs(cross(ac, b - a)) / ac.norm(), 2.0 * tolerance_);
 }
 
-std::vector<TPoint2D> SeenPolygon::cleaned(const std::vector<TPoint2D>& vertices) {
+std::vector<TPoint2D> ObservedPolygon::cleaned(const std::vector<TPoint2D>& vertices) {
   std::vector<TPoint2D> kept;
   for (const TPoint2D& v : vertices) {
     if (!std::isfinite(v.x) || !std::isfinite(v.y)) {
@@ -70,7 +70,7 @@ std::vector<TPoint2D> SeenPolygon::cleaned(const std::vector<TPoint2D>& vertices
   return corners;
 }
 
-SeenPolygon::SeenPolygon(const std::vector<TPoint2D>& vertices, double tolerance)
+ObservedPolygon::ObservedPolygon(const std::vector<TPoint2D>& vertices, double tolerance)
     : tolerance_(tolerance) {
   const std::vector<TPoint2D> corners = cleaned(vertices);
   double turned = 0.0;
@@ -101,16 +101,16 @@ SeenPolygon::SeenPolygon(const std::vector<TPoint2D>& vertices, double tolerance
   }
 }
 
-bool SeenPolygon::beginsAtVertex(std::size_t wall) const {
+bool ObservedPolygon::beginsAtVertex(std::size_t wall) const {
   const TPoint2D& before = walls_[(wall + walls_.size() - 1) % walls_.size()].to;
   return walls_[wall].from.norm() < before.norm() + 4.0 * tolerance_;
 }
 
-bool SeenPolygon::endsAtVertex(std::size_t wall) const {
+bool ObservedPolygon::endsAtVertex(std::size_t wall) const {
   return walls_[wall].to.norm() < walls_[(wall + 1) % walls_.size()].from.norm() + 4.0 * tolerance_;
 }
 
-VisibilitySkeleton SeenPolygon::skeleton() const {
+VisibilitySkeleton ObservedPolygon::skeleton() const {
   std::vector<VisibilitySkeleton::Gap> gaps;
   for (std::size_t i = 0; i < walls_.size(); ++i) {
     const Wall& before = walls_[(i + walls_.size() - 1) % walls_.size()];
@@ -121,16 +121,16 @@ VisibilitySkeleton SeenPolygon::skeleton() const {
   return VisibilitySkeleton(std::move(gaps));
 }
 
-bool agree(const SeenPolygon& a, const SeenPolygon& b, double limit) {
+bool agree(const ObservedPolygon& a, const ObservedPolygon& b, double limit) {
   return agree(a.walls(), b.walls(), limit);
 }
 
-bool agree(const std::vector<SeenPolygon::Wall>& a, const std::vector<SeenPolygon::Wall>& b,
+bool agree(const std::vector<ObservedPolygon::Wall>& a, const std::vector<ObservedPolygon::Wall>& b,
            double limit) {
   struct Start {
     double angle;
-    const SeenPolygon::Wall* a;
-    const SeenPolygon::Wall* b;
+    const ObservedPolygon::Wall* a;
+    const ObservedPolygon::Wall* b;
   };
   std::vector<Start> starts;
   for (const auto& wall : a) starts.push_back({wall.begin, &wall, nullptr});
@@ -138,7 +138,7 @@ bool agree(const std::vector<SeenPolygon::Wall>& a, const std::vector<SeenPolygo
   if (a.empty() || b.empty()) return false;
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Start& x, const Start& y) { return x.angle < y.angle; });
-  const SeenPolygon::Wall *of_a = nullptr, *of_b = nullptr;
+  const ObservedPolygon::Wall *of_a = nullptr, *of_b = nullptr;
   for (const Start& start : starts) {  // what is seen before the first start: the last walls
     if (start.a != nullptr) of_a = start.a;
     if (start.b != nullptr) of_b = start.b;

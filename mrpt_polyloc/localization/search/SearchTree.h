@@ -13,39 +13,39 @@
 
 namespace mrpt_polyloc {
 
-struct CellTreeParams {
+struct SearchTreeParams {
   /// Side of the squares of the finest level [m]. Bounds get tighter, memory and time of building
   /// grow with its inverse square. The index of visible edges must have squares of twice this size.
-  double cell_size = 0.25;
+  double leaf_size = 0.25;
   int threads = 0;  ///< 0: all cores
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;
 };
 
-/// The index of the certified search: free space cut into convex cells, each with its range bands,
+/// The index of the certified search: free space cut into convex leaves, each with its range bands,
 /// and above them a tree of square blocks, each twice as wide as those below, that hold all that
-/// their cells hold, over wider windows of headings.
+/// their leaves hold, over wider windows of headings.
 ///
-/// On level l a block is 2^l cell sizes wide, and its bands are over kWindow[l] bins: entry b
-/// bounds what is seen in the bins b to b + kWindow[l] - 1. Level 0 holds the cells themselves.
-class CellTree {
+/// On level l a block is 2^l leaf sizes wide, and its bands are over kWindow[l] bins: entry b
+/// bounds what is seen in the bins b to b + kWindow[l] - 1. Level 0 holds the leaves themselves.
+class SearchTree {
  public:
   static constexpr std::size_t kLevels = 4;
   /// [bins]; each divides kBandBins. On level 0 a turn by the window moves what is seen about as
-  /// much as a way across the cell does.
+  /// much as a way across the leaf does.
   static constexpr std::array<std::size_t, kLevels> kWindow = {2, 2, 4, 4};
   /// Entries of an array: the bins, and the first ones again, for whole vectors and windows that
   /// begin at any bin.
   static constexpr std::size_t kStride = 192;
   static constexpr std::size_t kArrays = 4;       ///< of a node, see Bands
-  static constexpr std::size_t kViewArrays = 2;   ///< of a cell, see View
+  static constexpr std::size_t kViewArrays = 2;   ///< of a leaf, see View
   static constexpr double kViewUnit = 1.0 / 128;  ///< [m]
 
   struct Node {
     std::uint32_t first_child, child_count;  ///< in the level below; unused on level 0
     std::uint16_t has_open;                  ///< 1: an open edge may be seen
-    std::uint16_t scale;                     ///< of RangeBytes
+    std::uint16_t scale;                     ///< of QuantizedRange
   };
   struct Level {
     std::vector<Node> nodes;
@@ -54,63 +54,63 @@ class CellTree {
   };
   /// All that a tree is made of, to be stored.
   struct Data {
-    double cell_size = 0.0;                   ///< [m]
-    std::vector<TPoint2D> vertices;           ///< of the cells' polygons
-    std::vector<std::uint32_t> first_vertex;  ///< of each cell, and the end
+    double leaf_size = 0.0;                   ///< [m]
+    std::vector<TPoint2D> vertices;           ///< of the leaves' polygons
+    std::vector<std::uint32_t> first_vertex;  ///< of each leaf, and the end
     std::array<Level, kLevels> levels;
-    std::vector<std::uint16_t> views;  ///< of each cell near and wall; and one entry more
+    std::vector<std::uint16_t> views;  ///< of each leaf near and wall; and one entry more
   };
 
-  /// A BinBand of each bin, as RangeBytes of a scale. In a node that sees open edges the lowest bit
-  /// of gap_low tells where one may come before the wall.
+  /// A BinBand of each bin, as QuantizedRange of a scale. In a node that sees open edges the lowest
+  /// bit of gap_low tells where one may come before the wall.
   struct Bands {
     const std::uint8_t *near_low, *wall_high, *gap_low, *gap_high;
     std::size_t scale;
     bool has_open;
   };
 
-  /// What is predicted from the middle of a cell in the directions where the bins begin
+  /// What is predicted from the middle of a leaf in the directions where the bins begin
   /// [kViewUnit]: the range to the first wall, and to an open edge if that comes before.
   struct View {
     const std::uint16_t *near, *wall;
   };
 
-  /// \param predictor its index over squares of twice the cell size
-  CellTree(const Triangulation& triangulation, const RangePredictor& predictor,
-           const CellTreeParams& params = {});
+  /// \param predictor its index over squares of twice the leaf size
+  SearchTree(const Triangulation& triangulation, const RangePredictor& predictor,
+             const SearchTreeParams& params = {});
 
   /// \throws InvalidMapError unless all numbers in the data are in their ranges
-  explicit CellTree(Data data);
+  explicit SearchTree(Data data);
 
   const Data& data() const { return data_; }
-  double cellSize() const { return data_.cell_size; }
+  double leafSize() const { return data_.leaf_size; }
   const std::vector<Node>& nodes(std::size_t level) const { return data_.levels[level].nodes; }
   Bands bands(std::size_t level, std::size_t node) const;
 
-  /// The box that holds a node: the smallest one around a cell, and around its cells [m].
+  /// The box that holds a node: the smallest one around a leaf, and around its leaves [m].
   const BoundingBox& box(std::size_t level, std::size_t node) const {
     return data_.levels[level].boxes[node];
   }
-  /// The vertices of a cell, counterclockwise [m].
-  const TPoint2D* polygon(std::size_t cell) const {
-    return &data_.vertices[data_.first_vertex[cell]];
+  /// The vertices of a leaf, counterclockwise [m].
+  const TPoint2D* polygon(std::size_t leaf) const {
+    return &data_.vertices[data_.first_vertex[leaf]];
   }
-  std::size_t polygonSize(std::size_t cell) const {
-    return data_.first_vertex[cell + 1] - data_.first_vertex[cell];
+  std::size_t polygonSize(std::size_t leaf) const {
+    return data_.first_vertex[leaf + 1] - data_.first_vertex[leaf];
   }
   /// The mean of its vertices [m].
-  TPoint2D middle(std::size_t cell) const;
-  View middleView(std::size_t cell) const;
+  TPoint2D middle(std::size_t leaf) const;
+  View middleView(std::size_t leaf) const;
 
   std::size_t bytes() const;
 
  private:
   using Squares = std::vector<std::pair<std::int32_t, std::int32_t>>;  ///< (column, row)
-  Squares takeCells(const Triangulation& triangulation, int threads);
+  Squares takeLeaves(const Triangulation& triangulation, int threads);
   void layOut(const VisibleEdgeIndex& index, Squares squares);
   void fill(const RangePredictor& predictor, int threads);
   void storeBands(const NodeBands& bands, std::size_t level, std::size_t node);
-  void storeView(const PredictedRanges& ranges, std::size_t cell);
+  void storeView(const PredictedRanges& ranges, std::size_t leaf);
 
   Data data_;
 };

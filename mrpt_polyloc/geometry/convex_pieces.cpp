@@ -1,4 +1,4 @@
-#include <mrpt_polyloc/geometry/convex_cells.h>
+#include <mrpt_polyloc/geometry/convex_pieces.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -236,8 +236,8 @@ std::vector<Piece> FacesOfSquares::pieces(std::size_t square) const {
 
 }  // namespace
 
-ConvexCells convexCells(const Triangulation& triangulation, const TPoint2D& corner, double size,
-                        int threads) {
+ConvexPieces convexPieces(const Triangulation& triangulation, const TPoint2D& corner, double size,
+                          int threads) {
   const FacesOfSquares squares(triangulation, corner, size);
   std::vector<std::vector<Piece>> pieces(squares.squares());
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
@@ -247,12 +247,12 @@ ConvexCells convexCells(const Triangulation& triangulation, const TPoint2D& corn
       for (std::size_t i = range.begin(); i != range.end(); ++i) pieces[i] = squares.pieces(i);
     });
   });
-  ConvexCells result;
+  ConvexPieces result;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     for (const Piece& piece : pieces[i]) {
-      result.cells.push_back({squares.column(i), squares.row(i),
-                              static_cast<std::uint32_t>(result.vertices.size()),
-                              static_cast<std::uint32_t>(piece.polygon.size())});
+      result.pieces.push_back({squares.column(i), squares.row(i),
+                               static_cast<std::uint32_t>(result.vertices.size()),
+                               static_cast<std::uint32_t>(piece.polygon.size())});
       append(result.vertices, piece.polygon);
     }
   }

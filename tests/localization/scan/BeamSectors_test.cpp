@@ -1,5 +1,5 @@
 #include "tests/support/simulated_scans.h"
-#include <mrpt_polyloc/localization/scan/BeamBlocks.h>
+#include <mrpt_polyloc/localization/scan/BeamSectors.h>
 
 #include <gtest/gtest.h>
 
@@ -18,32 +18,32 @@ std::vector<Beam> evenBeams(double first, double step, std::size_t count) {
   return beamsAt(degrees);
 }
 
-TEST(BeamBlocks, AreSectorsOfTenDegrees) {
-  EXPECT_EQ(BeamBlocks(evenBeams(-180, 1, 360)).count(), 36U);
-  EXPECT_EQ(BeamBlocks(evenBeams(-180, 0.25, 1440)).count(), 36U);
-  EXPECT_EQ(BeamBlocks(evenBeams(-90, 1, 180)).count(), 18U);
-  EXPECT_EQ(BeamBlocks(beamsAt({3, 4, 3})).count(), 1U);
-  EXPECT_EQ(BeamBlocks(beamsAt({})).count(), 0U);
+TEST(BeamSectors, AreSectorsOfTenDegrees) {
+  EXPECT_EQ(BeamSectors(evenBeams(-180, 1, 360)).count(), 36U);
+  EXPECT_EQ(BeamSectors(evenBeams(-180, 0.25, 1440)).count(), 36U);
+  EXPECT_EQ(BeamSectors(evenBeams(-90, 1, 180)).count(), 18U);
+  EXPECT_EQ(BeamSectors(beamsAt({3, 4, 3})).count(), 1U);
+  EXPECT_EQ(BeamSectors(beamsAt({})).count(), 0U);
   // Turns do not count, whichever way round.
-  EXPECT_EQ(BeamBlocks(beamsAt({5, 365, -355, 725})).count(), 1U);
+  EXPECT_EQ(BeamSectors(beamsAt({5, 365, -355, 725})).count(), 1U);
 }
 
-TEST(BeamBlocks, DifferenceByHand) {
+TEST(BeamSectors, DifferenceByHand) {
   // Sectors with the differences {1, 3}, {2}, {6}: means 2, 2, 6, of which the scatter is 16/3.
-  const BeamBlocks blocks(beamsAt({1, 2, 15, 101}));
-  const PairedDifference difference = blocks.difference({0, 0, 1, 1}, {1, 3, 3, 7});
+  const BeamSectors sectors(beamsAt({1, 2, 15, 101}));
+  const PairedDifference difference = sectors.difference({0, 0, 1, 1}, {1, 3, 3, 7});
   EXPECT_DOUBLE_EQ(difference.mean, 3.0);
   EXPECT_NEAR(difference.standard_error, std::sqrt(16.0 / 3.0 / 3.0), 1e-12);
 }
 
-TEST(BeamBlocks, NothingIsSureInOneSector) {
-  const PairedDifference difference = BeamBlocks(beamsAt({1, 2})).difference({1, 1}, {0, 0});
+TEST(BeamSectors, NothingIsSureInOneSector) {
+  const PairedDifference difference = BeamSectors(beamsAt({1, 2})).difference({1, 1}, {0, 0});
   EXPECT_EQ(difference.mean, -1.0);
   EXPECT_EQ(difference.standard_error, 1.0);
-  EXPECT_EQ(BeamBlocks({}).difference({}, {}).standard_error, 0.0);
+  EXPECT_EQ(BeamSectors({}).difference({}, {}).standard_error, 0.0);
 }
 
-TEST(BeamBlocks, RepeatedBeamsChangeNothing) {
+TEST(BeamSectors, RepeatedBeamsChangeNothing) {
   const auto once = evenBeams(-180, 2, 180);
   std::vector<Beam> thrice;
   std::vector<float> a, b, a3, b3;
@@ -56,8 +56,8 @@ TEST(BeamBlocks, RepeatedBeamsChangeNothing) {
       b3.push_back(b.back());
     }
   }
-  const PairedDifference x = BeamBlocks(once).difference(a, b);
-  const PairedDifference y = BeamBlocks(thrice).difference(a3, b3);
+  const PairedDifference x = BeamSectors(once).difference(a, b);
+  const PairedDifference y = BeamSectors(thrice).difference(a3, b3);
   EXPECT_NEAR(x.mean, y.mean, 1e-12);
   EXPECT_NEAR(x.standard_error, y.standard_error, 1e-12);
 }

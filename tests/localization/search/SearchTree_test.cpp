@@ -1,8 +1,8 @@
 #include "tests/support/random_maps.h"
 #include "tests/support/simulated_scans.h"
 #include <mrpt_polyloc/base/errors.h>
-#include <mrpt_polyloc/localization/search/CellTree.h>
-#include <mrpt_polyloc/localization/search/RangeBytes.h>
+#include <mrpt_polyloc/localization/search/QuantizedRange.h>
+#include <mrpt_polyloc/localization/search/SearchTree.h>
 
 #include <gtest/gtest.h>
 
@@ -27,45 +27,45 @@ struct TreeOfMap {
   PolygonMap map;
   Triangulation triangulation;
   RangePredictor predictor;
-  CellTree tree;
+  SearchTree tree;
   BruteForceRays rays;
 };
 
-/// The cells (indices of level 0) below a node: one run.
-std::pair<std::size_t, std::size_t> cellsOf(const CellTree& tree, std::size_t level,
+/// The leaves (indices of level 0) below a node: one run.
+std::pair<std::size_t, std::size_t> cellsOf(const SearchTree& tree, std::size_t level,
                                             std::size_t node) {
   std::size_t first = node, last = node + 1;
   for (; level > 0; --level) {
-    const CellTree::Node& end = tree.nodes(level)[last - 1];
+    const SearchTree::Node& end = tree.nodes(level)[last - 1];
     first = tree.nodes(level)[first].first_child;
     last = end.first_child + end.child_count;
   }
   return {first, last};
 }
 
-TEST(CellTree, EveryNodeHoldsWhatIsSeenFromItsCellsOverItsWindow) {
+TEST(SearchTree, EveryNodeHoldsWhatIsSeenFromItsCellsOverItsWindow) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::size_t gaps = 0;
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const TreeOfMap built(floorPlan(randomParams(random), seed));
-    const CellTree& tree = built.tree;
-    for (std::size_t level = 0; level < CellTree::kLevels; ++level) {
+    const SearchTree& tree = built.tree;
+    for (std::size_t level = 0; level < SearchTree::kLevels; ++level) {
       for (int i = 0; i < 400; ++i) {
         const std::size_t node = random() % tree.nodes(level).size();
         const auto [first, last] = cellsOf(tree, level, node);
-        const std::size_t cell = first + random() % (last - first);
-        TPoint2D p = tree.middle(cell);
-        p += (tree.polygon(cell)[random() % tree.polygonSize(cell)] - p) * (0.999 * unit(random));
+        const std::size_t leaf = first + random() % (last - first);
+        TPoint2D p = tree.middle(leaf);
+        p += (tree.polygon(leaf)[random() % tree.polygonSize(leaf)] - p) * (0.999 * unit(random));
         const std::size_t bin = random() % kBandBins;
-        const double offset = unit(random) * static_cast<double>(CellTree::kWindow[level]);
+        const double offset = unit(random) * static_cast<double>(SearchTree::kWindow[level]);
         const RayHit hit = built.rays.cast(p, (static_cast<double>(bin) + offset) * kBandBinWidth);
-        const CellTree::Bands bands = tree.bands(level, node);
-        const double u = RangeBytes::unit(bands.scale);
+        const SearchTree::Bands bands = tree.bands(level, node);
+        const double u = QuantizedRange::unit(bands.scale);
         const double near = std::min(hit.wall, hit.open), slack = 2e-3;
         EXPECT_LE(bands.near_low[bin] * u, near + slack);
-        if (bands.wall_high[bin] < RangeBytes::kGreatest) {
+        if (bands.wall_high[bin] < QuantizedRange::kGreatest) {
           EXPECT_GE(bands.wall_high[bin] * u, hit.wall - slack);
         }
         const auto is_in_gap = [&](double range) {
@@ -84,16 +84,16 @@ TEST(CellTree, EveryNodeHoldsWhatIsSeenFromItsCellsOverItsWindow) {
   EXPECT_GT(gaps, 300U);
 }
 
-TEST(CellTree, EveryLevelHoldsEveryCellOnce) {
+TEST(SearchTree, EveryLevelHoldsEveryCellOnce) {
   std::mt19937 random(12);
   const TreeOfMap built(floorPlan(randomParams(random), 2));
-  const CellTree& tree = built.tree;
+  const SearchTree& tree = built.tree;
   double area = 0.0;
-  for (std::size_t cell = 0; cell < tree.nodes(0).size(); ++cell) {
-    area += signedArea({tree.polygon(cell), tree.polygon(cell) + tree.polygonSize(cell)});
+  for (std::size_t leaf = 0; leaf < tree.nodes(0).size(); ++leaf) {
+    area += signedArea({tree.polygon(leaf), tree.polygon(leaf) + tree.polygonSize(leaf)});
   }
   EXPECT_NEAR(area, built.map.area(), 1e-5 * built.map.area());
-  for (std::size_t level = 0; level < CellTree::kLevels; ++level) {
+  for (std::size_t level = 0; level < SearchTree::kLevels; ++level) {
     std::size_t next = 0;
     const double width = std::ldexp(TreeOfMap::kSize, static_cast<int>(level));
     for (std::size_t node = 0; node < tree.nodes(level).size(); ++node) {
@@ -103,9 +103,9 @@ TEST(CellTree, EveryLevelHoldsEveryCellOnce) {
       const BoundingBox& box = tree.box(level, node);
       EXPECT_LE(box.max.x - box.min.x, width + 1e-9);
       EXPECT_LE(box.max.y - box.min.y, width + 1e-9);
-      for (std::size_t cell = first; cell < last; ++cell) {
-        for (std::size_t k = 0; k < tree.polygonSize(cell); ++k) {
-          const TPoint2D& p = tree.polygon(cell)[k];
+      for (std::size_t leaf = first; leaf < last; ++leaf) {
+        for (std::size_t k = 0; k < tree.polygonSize(leaf); ++k) {
+          const TPoint2D& p = tree.polygon(leaf)[k];
           EXPECT_TRUE(p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y);
         }
       }
@@ -114,18 +114,18 @@ TEST(CellTree, EveryLevelHoldsEveryCellOnce) {
   }
 }
 
-TEST(CellTree, ViewsFromTheMiddleArePredictedRanges) {
+TEST(SearchTree, ViewsFromTheMiddleArePredictedRanges) {
   std::mt19937 random(13);
   const TreeOfMap built(floorPlan(randomParams(random), 4));
   std::size_t apart = 0, compared = 0;
-  for (std::size_t cell = 0; cell < built.tree.nodes(0).size(); cell += 3) {
-    const CellTree::View view = built.tree.middleView(cell);
+  for (std::size_t leaf = 0; leaf < built.tree.nodes(0).size(); leaf += 3) {
+    const SearchTree::View view = built.tree.middleView(leaf);
     for (std::size_t bin = 0; bin < kBandBins; bin += 5) {
       const RayHit hit =
-          built.rays.cast(built.tree.middle(cell), static_cast<double>(bin) * kBandBinWidth);
+          built.rays.cast(built.tree.middle(leaf), static_cast<double>(bin) * kBandBinWidth);
       ++compared;
-      const double near = view.near[bin] * CellTree::kViewUnit;
-      const double wall = view.wall[bin] * CellTree::kViewUnit;
+      const double near = view.near[bin] * SearchTree::kViewUnit;
+      const double wall = view.wall[bin] * SearchTree::kViewUnit;
       const double most = 511.99;  // of 16 bits
       apart += std::abs(near - std::min({hit.wall, hit.open, most})) > 0.01 ||
                std::abs(wall - std::min(hit.wall, most)) > 0.01;
@@ -134,31 +134,31 @@ TEST(CellTree, ViewsFromTheMiddleArePredictedRanges) {
   EXPECT_LT(static_cast<double>(apart), 5e-3 * static_cast<double>(compared));  // grazing rays
 }
 
-TEST(CellTree, DoesNotDependOnTheThreads) {
+TEST(SearchTree, DoesNotDependOnTheThreads) {
   std::mt19937 random(14);
   const PolygonMap map = floorPlan(randomParams(random), 6);
   const TreeOfMap one(map, 1), many(map, 4);
-  for (std::size_t level = 0; level < CellTree::kLevels; ++level) {
+  for (std::size_t level = 0; level < SearchTree::kLevels; ++level) {
     EXPECT_EQ(one.tree.data().levels[level].codes, many.tree.data().levels[level].codes);
   }
   EXPECT_EQ(one.tree.data().views, many.tree.data().views);
 }
 
-TEST(CellTree, RefusesDataThatDoNotFitTogether) {
+TEST(SearchTree, RefusesDataThatDoNotFitTogether) {
   const TreeOfMap built(squareMap(2.0));
   const auto refuses = [&](const auto& spoil) {
-    CellTree::Data data = built.tree.data();
+    SearchTree::Data data = built.tree.data();
     spoil(data);
-    EXPECT_THROW(CellTree{std::move(data)}, InvalidMapError);
+    EXPECT_THROW(SearchTree{std::move(data)}, InvalidMapError);
   };
-  EXPECT_NO_THROW(CellTree{built.tree.data()});
-  refuses([](CellTree::Data& d) { d.cell_size = 0.0; });
-  refuses([](CellTree::Data& d) { d.first_vertex.back() += 1; });
-  refuses([](CellTree::Data& d) { d.views.pop_back(); });
-  refuses([](CellTree::Data& d) { d.levels[1].nodes.back().scale = 99; });
-  refuses([](CellTree::Data& d) { d.levels[0].codes.pop_back(); });
-  refuses([](CellTree::Data& d) { d.levels[1].boxes.pop_back(); });
-  refuses([](CellTree::Data& d) { d.levels[2].nodes.back().child_count += 100; });
+  EXPECT_NO_THROW(SearchTree{built.tree.data()});
+  refuses([](SearchTree::Data& d) { d.leaf_size = 0.0; });
+  refuses([](SearchTree::Data& d) { d.first_vertex.back() += 1; });
+  refuses([](SearchTree::Data& d) { d.views.pop_back(); });
+  refuses([](SearchTree::Data& d) { d.levels[1].nodes.back().scale = 99; });
+  refuses([](SearchTree::Data& d) { d.levels[0].codes.pop_back(); });
+  refuses([](SearchTree::Data& d) { d.levels[1].boxes.pop_back(); });
+  refuses([](SearchTree::Data& d) { d.levels[2].nodes.back().child_count += 100; });
 }
 
 }  // namespace

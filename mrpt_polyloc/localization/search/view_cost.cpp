@@ -1,6 +1,6 @@
 #include <mrpt_polyloc/base/cpu_dispatch.h>
-#include <mrpt_polyloc/localization/search/cell_view_cost.h>
 #include <mrpt_polyloc/localization/search/lanes.h>
+#include <mrpt_polyloc/localization/search/view_cost.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace mrpt_polyloc {
 namespace {
 
-using lanes::load, lanes::lower, lanes::raise, lanes::takeExcess, lanes::blend;
+using lanes::load, lanes::takeMin, lanes::takeMax, lanes::subtractSaturated, lanes::select;
 using lanes::Words;
 
 constexpr std::size_t kLanes = lanes::kBytes / sizeof(std::uint16_t);
@@ -16,7 +16,7 @@ constexpr lanes::FirstLanes<std::uint16_t, kBandBins % kLanes> kLast;
 
 /// RobustCost, in integers.
 template <bool is_in_phase, bool has_no_returns>
-POLYLOC_LANES unsigned sumCosts(const CellTree::View& view, const BandQuery& query,
+POLYLOC_LANES unsigned sumCosts(const SearchTree::View& view, const BandQuery& query,
                                 std::size_t heading) {
   Words sums{}, cap_long = Words{} + query.cap_long_view;
   for (std::size_t first = 0; first < kBandBins; first += kLanes) {
@@ -28,27 +28,27 @@ POLYLOC_LANES unsigned sumCosts(const CellTree::View& view, const BandQuery& que
     if (!is_in_phase) {
       Words next;
       load(view.near + first + 1, next);
-      lower(near, next);
+      takeMin(near, next);
       load(view.wall + first + 1, next);
-      raise(wall, next);
+      takeMax(wall, next);
     }
     load(query.short_view.data() + rotated, short_range);
     load(query.long_view.data() + rotated, passed);
-    takeExcess(passed, wall);
+    subtractSaturated(passed, wall);
     Words cap = cap_long;
     if (has_no_returns) {
       Words no_return;
       load(query.no_return_view.data() + rotated, no_return);
-      blend(no_return, Words{} + query.cap_none_view, cap);
+      select(no_return, Words{} + query.cap_none_view, cap);
       cap &= ~(no_return & (near < wall));  // past an open edge, nothing need return
     }
-    lower(passed, cap);
+    takeMin(passed, cap);
     Words beyond_open = wall;
-    takeExcess(beyond_open, short_range);
-    lower(beyond_open, Words{} + query.cap_open_view);
+    subtractSaturated(beyond_open, short_range);
+    takeMin(beyond_open, Words{} + query.cap_open_view);
     beyond_open &= short_range >= near;
-    takeExcess(near, short_range);
-    lower(near, Words{} + query.cap_short_view);
+    subtractSaturated(near, short_range);
+    takeMin(near, Words{} + query.cap_short_view);
     Words costs = near + beyond_open + passed;
     if (first + kLanes > kBandBins) {
       Words last;
@@ -61,14 +61,14 @@ POLYLOC_LANES unsigned sumCosts(const CellTree::View& view, const BandQuery& que
 }
 
 template <bool has_no_returns>
-POLYLOC_LANES unsigned chooseByPhase(const CellTree::View& view, const BandQuery& query,
+POLYLOC_LANES unsigned chooseByPhase(const SearchTree::View& view, const BandQuery& query,
                                      std::size_t heading) {
   return query.is_in_phase ? sumCosts<true, has_no_returns>(view, query, heading)
                            : sumCosts<false, has_no_returns>(view, query, heading);
 }
 
 /// Squares of differences to what the bin shows.
-double sumSquares(const CellTree::View& view, const BandQuery& query, std::size_t heading) {
+double sumSquares(const SearchTree::View& view, const BandQuery& query, std::size_t heading) {
   double sum = 0.0;
   for (std::size_t b = 0; b < kBandBins; ++b) {
     const std::size_t rotated = b + kBandBins - heading;
@@ -85,15 +85,15 @@ double sumSquares(const CellTree::View& view, const BandQuery& query, std::size_
 }  // namespace
 
 POLYLOC_HOT_LOOP
-float viewCost(const CellTree::View& view, const BandQuery& query, std::size_t heading) {
+float viewCost(const SearchTree::View& view, const BandQuery& query, std::size_t heading) {
   const auto beams = static_cast<double>(query.beams.size());
   if (query.metric == SearchMetric::polar) {
     return static_cast<float>(std::sqrt(sumSquares(view, query, heading) / beams) *
-                              CellTree::kViewUnit);
+                              SearchTree::kViewUnit);
   }
   const unsigned sum = query.has_no_returns ? chooseByPhase<true>(view, query, heading)
                                             : chooseByPhase<false>(view, query, heading);
-  return static_cast<float>(sum * CellTree::kViewUnit / beams);
+  return static_cast<float>(sum * SearchTree::kViewUnit / beams);
 }
 
 }  // namespace mrpt_polyloc

@@ -1,15 +1,15 @@
 #include <mrpt_polyloc/base/cpu_dispatch.h>
-#include <mrpt_polyloc/localization/search/cell_band_cost.h>
+#include <mrpt_polyloc/localization/search/bound_costs.h>
 #include <mrpt_polyloc/localization/search/lanes.h>
 
 namespace mrpt_polyloc {
 namespace {
 
 using lanes::Bytes, lanes::Words, lanes::Quads;
-using lanes::load, lanes::lower, lanes::raise, lanes::takeExcess, lanes::blend;
+using lanes::load, lanes::takeMin, lanes::takeMax, lanes::subtractSaturated, lanes::select;
 
 constexpr std::size_t kLanes = BandQuery::kLanes;
-static_assert(kLanes == lanes::kBytes && CellTree::kStride == BandQuery::kVectors * kLanes);
+static_assert(kLanes == lanes::kBytes && SearchTree::kStride == BandQuery::kVectors * kLanes);
 /// The entries of the last vector that still are bins; the rest of an array repeats its begin.
 constexpr lanes::FirstLanes<std::uint8_t, kBandBins % kLanes> kLast;
 
@@ -59,7 +59,7 @@ struct Bins {
 };
 
 template <bool is_in_phase>
-POLYLOC_LANES void loadBins(const CellTree::Bands& bands, std::size_t first, Bins& bins) {
+POLYLOC_LANES void loadBins(const SearchTree::Bands& bands, std::size_t first, Bins& bins) {
   load(bands.near_low + first, bins.near_low);
   load(bands.wall_high + first, bins.wall_high);
   load(bands.gap_low + first, bins.gap_low);
@@ -68,14 +68,14 @@ POLYLOC_LANES void loadBins(const CellTree::Bands& bands, std::size_t first, Bin
   if (is_in_phase) return;
   Bytes next;  // a beam may meet the next bin, too
   load(bands.near_low + first + 1, next);
-  lower(bins.near_low, next);
+  takeMin(bins.near_low, next);
   load(bands.wall_high + first + 1, next);
-  raise(bins.wall_high, next);
+  takeMax(bins.wall_high, next);
   load(bands.gap_low + first + 1, next);
   bins.may_be_open |= Bytes{} - (next & 1);
-  raise(bins.gap_low, next);
+  takeMax(bins.gap_low, next);
   load(bands.gap_high + first + 1, next);
-  lower(bins.gap_high, next);
+  takeMin(bins.gap_high, next);
 }
 
 /// The cases of BinBand: at most one of them costs a beam anything.
@@ -86,29 +86,29 @@ POLYLOC_LANES void costsOf(const Bins& bins, const BandQuery& query, const BandQ
   load(scan.short_range.data() + rotated, short_range);
   load(scan.long_range.data() + rotated, long_range);
   Bytes beyond = long_range, cap_long = Bytes{} + scan.cap_long;
-  takeExcess(beyond, bins.wall_high);
+  subtractSaturated(beyond, bins.wall_high);
   if (has_no_returns) {
     Bytes no_return;
     load(query.no_return.data() + rotated, no_return);
-    blend(no_return, Bytes{} + scan.cap_none, cap_long);
+    select(no_return, Bytes{} + scan.cap_none, cap_long);
     // Past an open edge, nothing need return.
     if (has_open) cap_long &= ~(no_return & bins.may_be_open);
   }
-  lower(beyond, cap_long);
+  takeMin(beyond, cap_long);
   Bytes falls_short = bins.near_low;
-  takeExcess(falls_short, short_range);
-  lower(falls_short, Bytes{} + scan.cap_short);
+  subtractSaturated(falls_short, short_range);
+  takeMin(falls_short, Bytes{} + scan.cap_short);
   Bytes in_gap = bins.gap_high, cap_gap = Bytes{} + scan.cap_gap;
-  if (has_open) blend(bins.may_be_open, Bytes{} + scan.cap_open_gap, cap_gap);
-  takeExcess(long_range, bins.gap_low);
-  takeExcess(in_gap, short_range);
-  lower(in_gap, long_range);
-  lower(in_gap, cap_gap);
+  if (has_open) select(bins.may_be_open, Bytes{} + scan.cap_open_gap, cap_gap);
+  subtractSaturated(long_range, bins.gap_low);
+  subtractSaturated(in_gap, short_range);
+  takeMin(in_gap, long_range);
+  takeMin(in_gap, cap_gap);
   costs = falls_short + beyond + in_gap;
 }
 
 template <bool has_open, bool is_in_phase, bool has_no_returns, Summation summation>
-POLYLOC_LANES void boundAll(const CellTree::Bands& bands, const BandQuery& query,
+POLYLOC_LANES void boundAll(const SearchTree::Bands& bands, const BandQuery& query,
                             const std::uint32_t* headings, std::size_t count, unsigned* bounds) {
   const BandQuery::Scaled& scan = query.scaled[bands.scale];
   Bins bins[BandQuery::kVectors];
@@ -135,7 +135,7 @@ POLYLOC_LANES void boundAll(const CellTree::Bands& bands, const BandQuery& query
 }
 
 template <bool has_open, bool is_in_phase>
-POLYLOC_LANES void chooseByBeams(const CellTree::Bands& bands, const BandQuery& query,
+POLYLOC_LANES void chooseByBeams(const SearchTree::Bands& bands, const BandQuery& query,
                                  const std::uint32_t* headings, std::size_t count,
                                  unsigned* bounds) {
   constexpr auto bytes = Summation::bytes, words = Summation::words, squares = Summation::squares;
@@ -153,8 +153,8 @@ POLYLOC_LANES void chooseByBeams(const CellTree::Bands& bands, const BandQuery& 
 }  // namespace
 
 POLYLOC_HOT_LOOP
-void boundCosts(const CellTree::Bands& bands, const BandQuery& query, const std::uint32_t* headings,
-                std::size_t count, unsigned* bounds) {
+void boundCosts(const SearchTree::Bands& bands, const BandQuery& query,
+                const std::uint32_t* headings, std::size_t count, unsigned* bounds) {
   if (query.is_in_phase) {
     bands.has_open ? chooseByBeams<true, true>(bands, query, headings, count, bounds)
                    : chooseByBeams<false, true>(bands, query, headings, count, bounds);

@@ -1,6 +1,6 @@
 #include <mrpt_polyloc/base/angles.h>
-#include <mrpt_polyloc/localization/search/CellDescent.h>
-#include <mrpt_polyloc/localization/search/cell_band_cost.h>
+#include <mrpt_polyloc/localization/search/TreeDescent.h>
+#include <mrpt_polyloc/localization/search/bound_costs.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace mrpt_polyloc {
 namespace {
 
-constexpr std::size_t kTop = CellTree::kLevels - 1;
+constexpr std::size_t kTop = SearchTree::kLevels - 1;
 constexpr auto kBins = static_cast<std::uint32_t>(kBandBins);
 
 std::size_t bitsOf(unsigned bound) {
@@ -19,12 +19,12 @@ std::size_t bitsOf(unsigned bound) {
 }
 
 std::uint32_t windowOf(std::size_t level) {
-  return static_cast<std::uint32_t>(CellTree::kWindow[level]);
+  return static_cast<std::uint32_t>(SearchTree::kWindow[level]);
 }
 
 }  // namespace
 
-CellDescent::CellDescent(const CellTree& tree, const BandQuery& query, const PosePrior& prior,
+TreeDescent::TreeDescent(const SearchTree& tree, const BandQuery& query, const PosePrior& prior,
                          const mrpt::math::TPoint2D& sensor, Workspace& workspace)
     : tree_(&tree),
       query_(&query),
@@ -51,7 +51,7 @@ CellDescent::CellDescent(const CellTree& tree, const BandQuery& query, const Pos
 }
 
 /// The prior speaks of the robot; its sensor is at most `sensor_distance_` away from it.
-bool CellDescent::allowsPosition(std::size_t level, std::uint32_t index) const {
+bool TreeDescent::allowsPosition(std::size_t level, std::uint32_t index) const {
   if (!prior_->near) return true;
   const BoundingBox& box = tree_->box(level, index);
   const double dx = std::max({box.min.x - prior_->near->x, prior_->near->x - box.max.x, 0.0});
@@ -59,7 +59,7 @@ bool CellDescent::allowsPosition(std::size_t level, std::uint32_t index) const {
   return std::hypot(dx, dy) <= prior_->near->radius + sensor_distance_;
 }
 
-bool CellDescent::allowsHeading(std::size_t level, std::uint32_t heading) const {
+bool TreeDescent::allowsHeading(std::size_t level, std::uint32_t heading) const {
   if (!prior_->compass) return true;
   constexpr double kRounding = 1e-9;
   const double half = 0.5 * windowOf(level);
@@ -67,11 +67,11 @@ bool CellDescent::allowsHeading(std::size_t level, std::uint32_t heading) const 
          prior_->compass->tolerance + half * kBandBinWidth + kRounding;
 }
 
-void CellDescent::list(std::size_t level, std::uint32_t heading) {
+void TreeDescent::list(std::size_t level, std::uint32_t heading) {
   if (allowed_[level][heading] != 0) workspace_->headings.push_back(heading);
 }
 
-void CellDescent::consider(std::size_t level, std::uint32_t index) {
+void TreeDescent::consider(std::size_t level, std::uint32_t index) {
   const std::vector<std::uint32_t>& headings = workspace_->headings;
   std::vector<unsigned>& bounds = workspace_->bounds;
   evaluated_ += headings.size();
@@ -84,7 +84,7 @@ void CellDescent::consider(std::size_t level, std::uint32_t index) {
   }
 }
 
-void CellDescent::expand(std::size_t level, const std::vector<Node>& nodes, std::size_t first,
+void TreeDescent::expand(std::size_t level, const std::vector<Node>& nodes, std::size_t first,
                          std::size_t last) {
   const std::uint32_t step = windowOf(level - 1);
   workspace_->headings.clear();
@@ -94,7 +94,7 @@ void CellDescent::expand(std::size_t level, const std::vector<Node>& nodes, std:
       list(level - 1, heading);
     }
   }
-  const CellTree::Node& node = tree_->nodes(level)[nodes[first].index];
+  const SearchTree::Node& node = tree_->nodes(level)[nodes[first].index];
   for (std::uint32_t child = node.first_child; child < node.first_child + node.child_count;
        ++child) {
     if (allowsPosition(level - 1, child)) consider(level - 1, child);
@@ -102,7 +102,7 @@ void CellDescent::expand(std::size_t level, const std::vector<Node>& nodes, std:
 }
 
 /// So that each child's bands are read once for all its headings: a fifth of the time.
-void CellDescent::groupByIndex(std::size_t level, std::vector<Node>& nodes) {
+void TreeDescent::groupByIndex(std::size_t level, std::vector<Node>& nodes) {
   std::vector<std::uint32_t>& first = workspace_->first_of_index;
   first.assign(tree_->nodes(level).size() + 1, 0);
   for (const Node& node : nodes) ++first[node.index + 1];
@@ -113,8 +113,8 @@ void CellDescent::groupByIndex(std::size_t level, std::vector<Node>& nodes) {
   nodes.swap(grouped);
 }
 
-bool CellDescent::raise(unsigned limit, const std::function<bool()>& is_spent,
-                        std::vector<Node>& leaves) {
+bool TreeDescent::expandUpTo(unsigned limit, const std::function<bool()>& is_spent,
+                             std::vector<Node>& leaves) {
   limit_ = limit;
   for (std::size_t level = 0; level <= kTop; ++level) {
     workspace_->within[level].clear();
@@ -141,7 +141,7 @@ bool CellDescent::raise(unsigned limit, const std::function<bool()>& is_spent,
   return is_complete;
 }
 
-void CellDescent::dive(std::size_t width, std::vector<Node>& leaves) {
+void TreeDescent::greedyDescent(std::size_t width, std::vector<Node>& leaves) {
   limit_ = std::numeric_limits<unsigned>::max();
   for (std::size_t level = kTop; level > 0; --level) {
     std::vector<Node> nodes = workspace_->within[level];
@@ -159,7 +159,7 @@ void CellDescent::dive(std::size_t width, std::vector<Node>& leaves) {
   leaves.insert(leaves.end(), workspace_->within[0].begin(), workspace_->within[0].end());
 }
 
-bool CellDescent::isDone() const {
+bool TreeDescent::isDone() const {
   return std::all_of(
       workspace_->waiting.begin(), workspace_->waiting.end(), [](const auto& buckets) {
         return std::all_of(buckets.begin(), buckets.end(),

@@ -12,7 +12,7 @@ namespace mrpt_polyloc {
 /// are. Rounded so that what is bounded is bounded still: the least range of a band and the scan's
 /// range that is held against its greatest down, the others up. All that is beyond the greatest
 /// byte counts as that: it costs nothing there.
-struct RangeBytes {
+struct QuantizedRange {
   static constexpr std::size_t kScales = 5;
   static constexpr double kFinestUnit = 1.0 / 32;  ///< [m]
   static constexpr int kGreatest = 255;
