@@ -1,7 +1,7 @@
 #include "parsing.h"
 
 #include "Cli.h"
-#include "angles.h"
+#include <mrpt_polyloc/base/angles.h>
 
 #include <algorithm>
 #include <charconv>

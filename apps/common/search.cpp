@@ -4,6 +4,7 @@
 #include "Progress.h"
 #include "map_input.h"
 #include "view_polygons.h"
+#include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/calibration_files.h>
 #include <mrpt_polyloc/localization/CellLocalizer.h>
@@ -14,10 +15,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -59,25 +58,20 @@ void checkTogether(const SearchOptions& search) {
   }
 }
 
-/// The content of a file; none if there is no such file. \throws FormatError if it cannot be read
-std::optional<std::string> readIfThere(const std::string& path) {
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file || content.empty()) throw FormatError(path, "", "cannot be read, or is empty");
-  return content;
-}
-
-std::shared_ptr<const GlobalLocalizer> makeShared(PolygonMap map, const std::string& index,
-                                                  const GlobalLocalizerParams& params) {
-  if (index.empty()) return std::make_shared<const GlobalLocalizer>(std::move(map), params);
-  if (const std::optional<std::string> content = readIfThere(index)) {
-    return std::make_shared<const GlobalLocalizer>(std::move(map), *content, index, params);
-  }
-  requireWritable(index);
-  auto localizer = std::make_shared<const GlobalLocalizer>(std::move(map), params);
-  writeFile(index, localizer->serializedIndex());
-  return localizer;
+/// The index of the certified search: read from its file if that is there, else made, and kept
+/// there if a file is named.
+MapIndex::Ptr makeIndex(PolygonMap map, const std::string& file, const MapIndexParams& params) {
+  if (file.empty()) return MapIndex::build(std::move(map), params);
+  if (std::filesystem::exists(file)) return MapIndex::load(file, std::move(map));
+  requireWritable(file);
+  const MapIndex::Ptr index = MapIndex::build(std::move(map), params);
+  OutputFiles files;
+  std::ofstream stream(files.stage(file), std::ios::binary);
+  index->save(stream);
+  stream.close();
+  if (!stream) throw FormatError(file, "", "cannot be written");
+  files.commit();
+  return index;
 }
 
 Calibration calibrationOf(const SearchOptions& search) {
@@ -85,34 +79,44 @@ Calibration calibrationOf(const SearchOptions& search) {
                                          : loadCalibration(search.calibration_file);
 }
 
-ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
-  GlobalLocalizerParams params;
-  params.max_hypotheses = search.max_hypotheses;
-  params.threads = static_cast<int>(search.threads);
-  params.certified.time_budget_ms = search.time_budget_ms;
-  if (search.search_metric == kPolar) params.search_metric = SearchMetric::polar;
-  params.hypotheses.calibration = calibrationOf(search);
-  // Shared, for a std::function must be copyable.
-  const auto localizer = makeShared(std::move(map), search.index, params);
-  return {localizer->map(),
-          [localizer](const RangeScan& scan, const PosePrior& prior) {
-            return localizer->localize(scan, prior);
+mrpt_polyloc::SearchOptions optionsOf(const SearchOptions& search) {
+  mrpt_polyloc::SearchOptions options;
+  options.max_hypotheses = search.max_hypotheses;
+  options.time_budget_ms = search.time_budget_ms;
+  if (search.search_metric == kPolar) options.metric = SearchMetric::polar;
+  return options;
+}
+
+/// A localizer as the programs see it. Shared, for a std::function must be copyable.
+template <class Localizer>
+ScanLocalizer shared(Localizer localizer, const SearchOptions& search, std::size_t bytes) {
+  const auto held = std::make_shared<const Localizer>(std::move(localizer));
+  return {held->map(),
+          [held, options = optionsOf(search)](const RangeScan& scan, const PosePrior& prior) {
+            return held->localize(scan, prior, options);
           },
-          localizer->indexBytes()};
+          bytes};
+}
+
+ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
+  MapIndexParams index_params;
+  index_params.threads = static_cast<int>(search.threads);
+  GlobalLocalizerParams params;
+  params.hypotheses.calibration = calibrationOf(search);
+  const MapIndex::Ptr index = makeIndex(std::move(map), search.index, index_params);
+  return shared(GlobalLocalizer(index, params), search, index->bytes());
 }
 
 ScanLocalizer makeCells(PolygonMap map, const SearchOptions& search) {
+  MapIndexParams index_params;
+  index_params.threads = static_cast<int>(search.threads);
   CellLocalizerParams params;
-  params.max_hypotheses = search.max_hypotheses;
   params.threads = static_cast<int>(search.threads);
   params.range = search.cell_range;
   params.hypotheses.calibration = calibrationOf(search);
-  const auto localizer = std::make_shared<const CellLocalizer>(std::move(map), params);
-  return {localizer->map(),
-          [localizer](const RangeScan& scan, const PosePrior& prior) {
-            return localizer->localize(scan, prior);
-          },
-          localizer->indexBytes()};
+  CellLocalizer localizer(MapIndex::deferred(std::move(map), index_params), params);
+  const std::size_t bytes = localizer.indexBytes();
+  return shared(std::move(localizer), search, bytes);
 }
 
 /// What both exact localizers are to the programs.
@@ -135,11 +139,10 @@ ScanLocalizer makeExact(const PolygonMap& map, const SearchOptions& search, std:
 
 LocalizedScan localizeOne(const ScanLocalizer& localizer, const RangeScan& scan, std::size_t row,
                           const PosePrior& prior) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   LocalizationResult result = localizer.localize(scan, prior);
-  const std::chrono::duration<double, std::milli> took = Clock::now() - start;
-  return {row, scan.stamp(), std::move(result), took.count()};
+  const double ms = 1e3 * watch.seconds();
+  return {row, scan.stamp(), std::move(result), ms};
 }
 
 }  // namespace

@@ -6,11 +6,11 @@
 #include "../common/parsing.h"
 #include "../common/search.h"
 #include "text_summary.h"
+#include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/evaluation/Summary.h>
 #include <mrpt_polyloc/evaluation/summary_json.h>
 #include <mrpt_polyloc/evaluation/truth.h>
 
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <numeric>
@@ -80,10 +80,10 @@ std::vector<ScanRecord> score(const std::vector<LocalizedScan>& localized, const
 int evaluate(const Program& program, const Options& options) {
   const Inputs inputs = loadInputs(options);
 
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const ScanLocalizer localizer = makeLocalizer(
       loadMapWithWarnings(program, options.search.map).map, options.search, inputs.scans.size());
-  const std::chrono::duration<double> build = std::chrono::steady_clock::now() - start;
+  const double build_s = watch.seconds();
 
   const std::filesystem::path folder = options.folder;
   makeFolder(options.folder);
@@ -99,7 +99,7 @@ int evaluate(const Program& program, const Options& options) {
   const Summary all = summarize(scores);
   std::optional<Summary> good;
   if (inputs.good) good = summarize(scores, &*inputs.good);
-  const IndexFigures index{build.count(), static_cast<double>(localizer.index_bytes) / 1e6};
+  const IndexFigures index{build_s, static_cast<double>(localizer.index_bytes) / 1e6};
 
   OutputFiles files;
   files.add(folder / "summary.json",

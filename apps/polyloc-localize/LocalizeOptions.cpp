@@ -1,6 +1,6 @@
 #include "LocalizeOptions.h"
 
-#include "../common/angles.h"
+#include <mrpt_polyloc/base/angles.h>
 
 namespace mrpt_polyloc::apps {
 namespace {

@@ -1,6 +1,6 @@
 #include "hypothesis_csv.h"
 
-#include "../common/angles.h"
+#include <mrpt_polyloc/base/angles.h>
 
 #include <cmath>
 #include <cstdio>

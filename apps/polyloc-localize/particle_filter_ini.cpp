@@ -1,6 +1,6 @@
 #include "particle_filter_ini.h"
 
-#include "../common/angles.h"
+#include <mrpt_polyloc/base/angles.h>
 
 #include <algorithm>
 #include <cmath>

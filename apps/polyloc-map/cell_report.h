@@ -1,28 +1,25 @@
 #pragma once
 
 #include "../common/SvgCanvas.h"
+#include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/visibility/VisibilityCells.h>
 
 #include <nlohmann/json.hpp>
 
-#include <chrono>
 #include <string>
 
 namespace mrpt_polyloc::apps {
 
 /// The visibility cells of a map, in a range [m], and what they took. \throws CellBudgetError
 struct CellReport {
-  CellReport(const PolygonMap& map, double range)
-      : CellReport(map, range, std::chrono::steady_clock::now()) {}
+  CellReport(const PolygonMap& map, double range) : CellReport(map, range, Stopwatch()) {}
 
   VisibilityCells cells;
   double build_s;  ///< wall time
 
  private:
-  using Time = std::chrono::steady_clock::time_point;
-  CellReport(const PolygonMap& map, double range, Time start)
-      : cells(map, {VisibilityCellsParams{}.max_cells, range}),
-        build_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()) {}
+  CellReport(const PolygonMap& map, double range, const Stopwatch& watch)
+      : cells(map, {VisibilityCellsParams{}.max_cells, range}), build_s(watch.seconds()) {}
 };
 
 /// {cells, windows, cell_build_s, cell_mb}.

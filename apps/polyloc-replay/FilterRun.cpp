@@ -1,5 +1,6 @@
 #include "FilterRun.h"
 
+#include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/io/mrpt_archive.h>
 
@@ -8,7 +9,6 @@
 #include <mrpt/slam/CMonteCarloLocalization2D.h>
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <string>
 #include <thread>
@@ -23,10 +23,9 @@ using mrpt::slam::CMonteCarloLocalization2D;
 /// Wall time of a job [ms].
 template <class Job>
 double timed(const Job& job) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   job();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
+  return 1e3 * watch.seconds();
 }
 
 /// CPU time of the calling thread [ms].
@@ -49,7 +48,7 @@ class Driver {
  public:
   Driver(const ReplaySetup& setup, std::uint32_t seed)
       : setup_(&setup),
-        seeder_(*setup.maps.polygons.map(), setup.config.seeds),
+        seeder_(setup.maps.polygons.index(), setup.config.seeds),
         recovery_(setup.localizer, seeder_, setup.maps.polygons, setup.config.recovery),
         seed_(seed) {
     particles_.options.KLD_params = setup.config.kld;
@@ -71,7 +70,7 @@ class Driver {
     } else {
       ParticleSeederParams everywhere = setup_->config.seeds;
       everywhere.particles = setup_->config.uniform_particles;
-      ParticleSeeder(*setup_->maps.polygons.map(), everywhere).seed({}, nextSeed(), particles_);
+      ParticleSeeder(setup_->maps.polygons.index(), everywhere).seed({}, nextSeed(), particles_);
     }
     record.particles = particles_.size();
     timeFilter(record, [&] { weigh(first); });

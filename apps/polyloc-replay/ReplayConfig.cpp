@@ -1,8 +1,8 @@
 #include "ReplayConfig.h"
 
-#include "../common/angles.h"
 #include "../common/parsing.h"
 #include "ini_section.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/io/mrpt_archive.h>
@@ -143,8 +143,8 @@ void readFilter(ReplayConfig& config) {
   IniSection odometry(config.text, "DummyOdometryParams",
                       {"minStdXY", "minStdPHI", "additional_std_XYZ", "additional_std_angle"});
   config.odometry.min_std_xy = odometry.number("minStdXY", config.odometry.min_std_xy, 0, 100);
-  config.odometry.min_std_phi = apps::toRadians(
-      odometry.number("minStdPHI", apps::toDegrees(config.odometry.min_std_phi), 0, 180));
+  config.odometry.min_std_phi =
+      toRadians(odometry.number("minStdPHI", toDegrees(config.odometry.min_std_phi), 0, 180));
 }
 
 /// "I,J-K".
@@ -212,8 +212,8 @@ void readPolyloc(ReplayConfig& config) {
   config.seeds.least_per_hypothesis =
       section.count("least_per_hypothesis", config.seeds.least_per_hypothesis, 1, 1'000'000);
   config.seeds.uniform_share = section.number("uniform_share", config.seeds.uniform_share, 0, 1);
-  config.search.max_hypotheses =
-      section.count("max_hypotheses", config.search.max_hypotheses, 1, 1'000'000);
+  config.recovery.max_hypotheses =
+      section.count("max_hypotheses", config.recovery.max_hypotheses, 1, 1'000'000);
   const std::string noise = section.text("odometry_noise", "log");
   if (noise != "log" && noise != "ini") {
     throw InvalidParamsError("[polyloc]: odometry_noise = '" + noise + "' is not log or ini");

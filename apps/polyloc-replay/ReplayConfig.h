@@ -1,7 +1,6 @@
 #pragma once
 
 #include <mrpt_polyloc/io/replay_log.h>
-#include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/mrpt_bridge/FilterRecovery.h>
 #include <mrpt_polyloc/mrpt_bridge/ParticleSeeder.h>
 

@@ -1,5 +1,5 @@
-#include "../common/angles.h"
 #include "replay_statistics.h"
+#include <mrpt_polyloc/base/angles.h>
 
 #include <nlohmann/json.hpp>
 
@@ -11,7 +11,6 @@ namespace mrpt_polyloc::replay {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using apps::toDegrees;
 
 const char* healthName(FilterHealth health) {
   switch (health) {

@@ -2,8 +2,8 @@
 
 #include "../common/Cli.h"
 #include "../common/OutputFiles.h"
-#include "../common/angles.h"
 #include "../common/map_input.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/evaluation/Simulator.h>
 #include <mrpt_polyloc/evaluation/truth.h>
 #include <mrpt_polyloc/io/rawlog_writer.h>

@@ -6,6 +6,15 @@ namespace mrpt_polyloc {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kTwoPi = 2.0 * kPi;
+constexpr double kDegree = kPi / 180.0;  ///< [rad]
+
+/// Command lines, CSV and ini files speak degrees, the library radians.
+constexpr double toRadians(double degrees) {
+  return degrees * kDegree;
+}
+constexpr double toDegrees(double radians) {
+  return radians / kDegree;
+}
 
 /// An angle [rad] brought into [0, 2 pi).
 inline double wrapToTwoPi(double angle) {

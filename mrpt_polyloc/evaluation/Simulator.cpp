@@ -12,8 +12,6 @@
 namespace mrpt_polyloc {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 TPoint2D drawPlace(const FreeSpaceSampler& sampler, const WallSegments& walls, double clearance,
                    Random& random) {
   constexpr int kTries = 20'000;  // a place that takes 1/2000 of the free space is found

@@ -99,7 +99,7 @@ Summary summarize(const std::vector<ScanScore>& scores, const std::vector<std::s
     }
     if (right) {
       errors_m.push_back(score.error_m);
-      errors_deg.push_back(score.error_rad * 180.0 / kPi);
+      errors_deg.push_back(score.error_rad / kDegree);
     }
   }
   summary.top1 = fraction(top1, rows->size());

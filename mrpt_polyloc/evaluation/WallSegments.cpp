@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/evaluation/WallSegments.h>
 
 #include <algorithm>
@@ -8,13 +9,6 @@ namespace mrpt_polyloc {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double cross(const TPoint2D& u, const TPoint2D& v) {
-  return u.x * v.y - u.y * v.x;
-}
-double dot(const TPoint2D& u, const TPoint2D& v) {
-  return u.x * v.x + u.y * v.y;
-}
 
 /// Range along the unit vector `ray` to the segment from a to b, both relative to the origin.
 double rangeTo(const TPoint2D& a, const TPoint2D& b, const TPoint2D& ray) {

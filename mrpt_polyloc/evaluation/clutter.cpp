@@ -27,7 +27,6 @@ std::pair<double, double> bearingSpan(const std::vector<Beam>& beams) {
 }
 
 void putOccluder(std::vector<Beam>& beams, const std::pair<double, double>& span, Random& random) {
-  constexpr double kDegree = kPi / 180.0;
   const double center = random.uniform(span.first, span.second);
   const double half_width = 0.5 * random.uniform(8.0, 19.0) * kDegree;
   const double share = random.uniform(0.2, 0.9);

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/evaluation/summary_json.h>
 
 #include <nlohmann/json.hpp>
@@ -11,8 +12,6 @@ namespace mrpt_polyloc {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr double kDegreesPerRadian = 57.295779513082320877;
 
 ordered_json orNull(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
@@ -49,7 +48,7 @@ std::string toField(double value, int digits) {
 
 /// ",x,y,phi_deg"
 std::string poseFields(const mrpt::math::TPose2D& pose) {
-  double degrees = std::remainder(pose.phi * kDegreesPerRadian, 360.0);
+  double degrees = std::remainder(pose.phi / kDegree, 360.0);
   if (degrees <= -180.0) degrees = 180.0;
   return "," + toField(pose.x, 6) + "," + toField(pose.y, 6) + "," + toField(degrees, 6);
 }
@@ -88,7 +87,7 @@ std::string scansCsv(const std::vector<ScanRecord>& records) {
     csv += std::to_string(record.row) + "," + toField(record.stamp, 6) + "," +
            toString(score.status) + "," + std::to_string(score.right_rank) + "," +
            std::to_string(record.hypotheses) + "," + toField(score.error_m, 4) + "," +
-           toField(score.error_rad * kDegreesPerRadian, 4);
+           toField(score.error_rad / kDegree, 4);
     if (record.answer)
       csv += "," + toField(record.answer->cost, 6) + poseFields(record.answer->pose_map_robot);
     else

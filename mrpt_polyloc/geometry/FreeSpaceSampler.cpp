@@ -2,13 +2,18 @@
 #include <mrpt_polyloc/geometry/FreeSpaceSampler.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace mrpt_polyloc {
 
-FreeSpaceSampler::FreeSpaceSampler(const PolygonMap& map) : triangulation_(map) {
+FreeSpaceSampler::FreeSpaceSampler(const PolygonMap& map)
+    : FreeSpaceSampler(std::make_shared<const Triangulation>(map)) {}
+
+FreeSpaceSampler::FreeSpaceSampler(std::shared_ptr<const Triangulation> triangulation)
+    : triangulation_(std::move(triangulation)) {
   double area = 0.0;
-  for (std::size_t i = 0; i < triangulation_.faces().size(); ++i) {
-    if (!triangulation_.faces()[i].is_free) continue;
+  for (std::size_t i = 0; i < triangulation_->faces().size(); ++i) {
+    if (!triangulation_->faces()[i].is_free) continue;
     const auto [a, b, c] = corners(i);
     area += 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
     faces_.push_back(i);
@@ -32,9 +37,9 @@ TPoint2D FreeSpaceSampler::draw(Random& random) const {
 }
 
 FreeSpaceSampler::Corners FreeSpaceSampler::corners(std::size_t face) const {
-  const auto& vertex = triangulation_.faces()[face].vertex;
+  const auto& vertex = triangulation_->faces()[face].vertex;
   const auto at = [&](std::size_t i) {
-    return triangulation_.vertices()[static_cast<std::size_t>(vertex[i])];
+    return triangulation_->vertices()[static_cast<std::size_t>(vertex[i])];
   };
   return {at(0), at(1), at(2)};
 }

@@ -4,6 +4,7 @@
 #include <mrpt_polyloc/geometry/Triangulation.h>
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace mrpt_polyloc {
@@ -13,6 +14,8 @@ class FreeSpaceSampler {
  public:
   /// \throws InvalidMapError if the map has no free space
   explicit FreeSpaceSampler(const PolygonMap& map);
+  /// The same with a triangulation made before.
+  explicit FreeSpaceSampler(std::shared_ptr<const Triangulation> triangulation);
 
   /// [m] Takes three numbers of the stream.
   TPoint2D draw(Random& random) const;
@@ -23,7 +26,7 @@ class FreeSpaceSampler {
   };
   Corners corners(std::size_t face) const;
 
-  Triangulation triangulation_;
+  std::shared_ptr<const Triangulation> triangulation_;
   std::vector<std::size_t> faces_;
   std::vector<double> area_until_;  ///< of the free faces up to and with this one [m2]
 };

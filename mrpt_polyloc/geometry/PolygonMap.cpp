@@ -1,4 +1,6 @@
+#include <mrpt_polyloc/base/Checksum.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
 #include <algorithm>
@@ -60,28 +62,15 @@ double length(const TPoint2D& a, const TPoint2D& b) {
   return std::hypot(b.x - a.x, b.y - a.y);
 }
 
-double cross(const TPoint2D& o, const TPoint2D& a, const TPoint2D& b) {
-  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+template <class T>
+void add(const T& value, Fnv& hash) {
+  hash.add(&value, sizeof(value));
 }
 
-/// 64-bit FNV-1a over the bytes of what is added.
-class Fnv1a {
- public:
-  template <class T>
-  void add(const T& value) {
-    unsigned char bytes[sizeof(T)];
-    std::memcpy(bytes, &value, sizeof(T));
-    for (const unsigned char byte : bytes) hash_ = (hash_ ^ byte) * 1099511628211ULL;
-  }
-  void add(const TPoint2D& p) {
-    add(p.x + 0.0);  // -0 and 0 are one coordinate
-    add(p.y + 0.0);
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 14695981039346656037ULL;
-};
+void add(const TPoint2D& p, Fnv& hash) {
+  add(p.x + 0.0, hash);  // -0 and 0 are one coordinate
+  add(p.y + 0.0, hash);
+}
 
 }  // namespace
 
@@ -208,17 +197,17 @@ double PolygonMap::wallsBeyondLength() const {
 }
 
 std::uint64_t PolygonMap::hash() const {
-  Fnv1a hash;
-  hash.add(components_.size());
-  for (const FreePolygon& component : components_) hash.add(component.holes.size());
+  Fnv hash;
+  add(components_.size(), hash);
+  for (const FreePolygon& component : components_) add(component.holes.size(), hash);
   for (const Ring* ring : rings()) {
-    hash.add(ring->size());
-    for (const TPoint2D& p : ring->vertices) hash.add(p);
-    for (const EdgeKind kind : ring->kinds) hash.add(kind);
+    add(ring->size(), hash);
+    for (const TPoint2D& p : ring->vertices) add(p, hash);
+    for (const EdgeKind kind : ring->kinds) add(kind, hash);
   }
   for (const Polyline& wall : walls_beyond_) {
-    hash.add(wall.size());
-    for (const TPoint2D& p : wall) hash.add(p);
+    add(wall.size(), hash);
+    for (const TPoint2D& p : wall) add(p, hash);
   }
   return hash.value();
 }

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/geometry/constrained_delaunay.h>
 #include <mrpt_polyloc/geometry/orientation.h>
@@ -113,6 +114,30 @@ int Triangulation::locate(const TPoint2D& point) const {
 bool Triangulation::isFree(const TPoint2D& point) const {
   const int face = locate(point);
   return face != kNone && faces_[static_cast<std::size_t>(face)].is_free;
+}
+
+bool Triangulation::isFreeOrBeside(const TPoint2D& point, double distance) const {
+  const int first = locate(point);
+  if (first == kNone) return false;
+  std::vector<int> reached{first};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const Face& face = faces_[static_cast<std::size_t>(reached[i])];
+    if (face.is_free) return true;
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+      const int next = face.neighbor[edge];
+      if (next == kNone || face.passage[edge] == Passage::wall) continue;
+      const TPoint2D& a = vertices_[static_cast<std::size_t>(face.vertex[(edge + 1) % 3])];
+      const TPoint2D& b = vertices_[static_cast<std::size_t>(face.vertex[(edge + 2) % 3])];
+      if (distanceToSegment(point, a, b) > distance) continue;
+      if (std::find(reached.begin(), reached.end(), next) == reached.end()) reached.push_back(next);
+    }
+  }
+  return false;
+}
+
+std::size_t Triangulation::bytes() const {
+  return vertices_.size() * sizeof(TPoint2D) + faces_.size() * sizeof(Face) +
+         buckets_.size() * sizeof(std::int32_t);
 }
 
 }  // namespace mrpt_polyloc

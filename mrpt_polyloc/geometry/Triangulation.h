@@ -57,6 +57,12 @@ class Triangulation {
   /// Whether a point lies in a free face; border points may go either way.
   bool isFree(const TPoint2D& point) const;
 
+  /// Whether a point lies in free space or beside it: free space is reached from there through
+  /// edges that are no walls, each of them nearer to the point than a distance [m]. O(faces met).
+  bool isFreeOrBeside(const TPoint2D& point, double distance) const;
+
+  std::size_t bytes() const;  ///< memory held
+
  private:
   Triangulation(const std::vector<Polyline>& walls, const BoundingBox& box);
   void buildBuckets();

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/geometry/convex_pieces.h>
 
 #include <tbb/blocked_range.h>
@@ -6,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace mrpt_polyloc {
 namespace {
@@ -19,10 +22,6 @@ struct Piece {
   std::vector<std::int32_t> neighbors;   ///< faces across edges that can be passed
   std::vector<TPoint2D> border_middles;  ///< of its edges on a border of free space
 };
-
-double cross(const TPoint2D& a, const TPoint2D& b, const TPoint2D& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
 
 /// A polygon that is being cut; of each edge the one of the triangle that it comes from.
 struct CutVertex {
@@ -110,21 +109,24 @@ bool join(Piece& a, const Piece& b) {
   return true;
 }
 
-/// The grid, and which faces meet which of its squares.
+/// The squares of the grid that free faces meet, and which faces meet them.
 class FacesOfSquares {
  public:
   FacesOfSquares(const Triangulation& t, const TPoint2D& corner, double size)
       : t_(t), corner_(corner), size_(size) {
-    columns_ = static_cast<std::int32_t>((t.box().max.x - corner.x) / size) + 1;
-    rows_ = static_cast<std::int32_t>((t.box().max.y - corner.y) / size) + 1;
-    const std::size_t squares =
-        static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
-    first_.assign(squares + 1, 0);
-    forEachPair([this](std::int32_t, std::size_t square) { ++first_[square + 1]; });
-    for (std::size_t i = 0; i < squares; ++i) first_[i + 1] += first_[i];
-    faces_.resize(first_.back());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    forEachPair([&](std::int32_t face, std::size_t square) { faces_[next[square]++] = face; });
+    for (std::size_t f = 0; f < t.faces().size(); ++f) {
+      if (t.faces()[f].is_free) takeFace(f);
+    }
+    // By square, row by row, its faces in the triangulation's order.
+    std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
+      return std::tie(a.row, a.column, a.face) < std::tie(b.row, b.column, b.face);
+    });
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      const bool is_new =
+          i == 0 || pairs_[i].row != pairs_[i - 1].row || pairs_[i].column != pairs_[i - 1].column;
+      if (is_new) first_.push_back(i);
+    }
+    first_.push_back(pairs_.size());
   }
 
   std::size_t squares() const { return first_.size() - 1; }
@@ -132,37 +134,27 @@ class FacesOfSquares {
   /// The convex pieces of free space in a square.
   std::vector<Piece> pieces(std::size_t square) const;
 
-  std::int32_t column(std::size_t square) const {
-    return static_cast<std::int32_t>(square) % columns_;
-  }
-  std::int32_t row(std::size_t square) const {
-    return static_cast<std::int32_t>(square) / columns_;
-  }
+  std::int32_t column(std::size_t square) const { return pairs_[first_[square]].column; }
+  std::int32_t row(std::size_t square) const { return pairs_[first_[square]].row; }
 
  private:
-  /// Calls visit(face, square) for the free faces whose box meets the square.
-  template <class Visitor>
-  void forEachPair(Visitor&& visit) const {
-    for (std::size_t f = 0; f < t_.faces().size(); ++f) {
-      if (!t_.faces()[f].is_free) continue;
-      TPoint2D low = corner(f, 0), high = low;
-      for (std::size_t i = 1; i < 3; ++i) {
-        low = {std::min(low.x, corner(f, i).x), std::min(low.y, corner(f, i).y)};
-        high = {std::max(high.x, corner(f, i).x), std::max(high.y, corner(f, i).y)};
-      }
-      const auto place = [this](double offset, std::int32_t count) {
-        return std::clamp(static_cast<std::int32_t>(std::floor(offset / size_)), 0, count - 1);
-      };
-      for (std::int32_t r = place(low.y - corner_.y, rows_); r <= place(high.y - corner_.y, rows_);
-           ++r) {
-        for (std::int32_t c = place(low.x - corner_.x, columns_);
-             c <= place(high.x - corner_.x, columns_); ++c) {
-          if (!misses(f, c, r)) {
-            visit(static_cast<std::int32_t>(f),
-                  static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) +
-                      static_cast<std::size_t>(c));
-          }
-        }
+  struct Pair {
+    std::int32_t row, column;
+    std::int32_t face;
+  };
+
+  void takeFace(std::size_t f) {
+    TPoint2D low = corner(f, 0), high = low;
+    for (std::size_t i = 1; i < 3; ++i) {
+      low = {std::min(low.x, corner(f, i).x), std::min(low.y, corner(f, i).y)};
+      high = {std::max(high.x, corner(f, i).x), std::max(high.y, corner(f, i).y)};
+    }
+    const auto place = [this](double offset) {
+      return std::max(static_cast<std::int32_t>(std::floor(offset / size_)), 0);
+    };
+    for (std::int32_t r = place(low.y - corner_.y); r <= place(high.y - corner_.y); ++r) {
+      for (std::int32_t c = place(low.x - corner_.x); c <= place(high.x - corner_.x); ++c) {
+        if (!misses(f, c, r)) pairs_.push_back({r, c, static_cast<std::int32_t>(f)});
       }
     }
   }
@@ -183,17 +175,16 @@ class FacesOfSquares {
   const Triangulation& t_;
   TPoint2D corner_;
   double size_;
-  std::int32_t columns_, rows_;
-  std::vector<std::uint32_t> first_;
-  std::vector<std::int32_t> faces_;
+  std::vector<Pair> pairs_;
+  std::vector<std::size_t> first_;  ///< of each square, in `pairs_`, and the end
 };
 
 std::vector<Piece> FacesOfSquares::pieces(std::size_t square) const {
   const double left = corner_.x + column(square) * size_, right = left + size_;
   const double bottom = corner_.y + row(square) * size_, top = bottom + size_;
   std::vector<Piece> pieces;
-  for (std::uint32_t k = first_[square]; k < first_[square + 1]; ++k) {
-    const auto f = static_cast<std::size_t>(faces_[k]);
+  for (std::size_t k = first_[square]; k < first_[square + 1]; ++k) {
+    const auto f = static_cast<std::size_t>(pairs_[k].face);
     const Triangulation::Face& face = t_.faces()[f];
     std::vector<CutVertex> cut;
     for (int i = 0; i < 3; ++i) {
@@ -218,7 +209,7 @@ std::vector<Piece> FacesOfSquares::pieces(std::size_t square) const {
         piece.border_middles.push_back((cut[i].point + cut[(i + 1) % cut.size()].point) * 0.5);
       }
     }
-    piece.faces.push_back(faces_[k]);
+    piece.faces.push_back(pairs_[k].face);
     pieces.push_back(std::move(piece));
   }
   for (bool is_changed = true; is_changed;) {

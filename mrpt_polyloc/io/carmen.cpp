@@ -18,7 +18,6 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kDegree = kPi / 180.0;
 constexpr double kDefaultMaxRange = 80.0;  // [m]
 constexpr double kMaxSensorOffset = 5.0;   // [m]
 

@@ -1,7 +1,9 @@
+#include <mrpt_polyloc/base/Budget.h>
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/CellLocalizer.h>
+#include <mrpt_polyloc/localization/MapIndexParts.h>
 #include <mrpt_polyloc/localization/nearest_cells/cell_views.h>
 #include <mrpt_polyloc/localization/ranking/candidate_ranking.h>
 #include <mrpt_polyloc/polar/CirclePlan.h>
@@ -43,7 +45,6 @@ VisibilityCells makeCells(const PolygonMap& map, const CellLocalizerParams& para
 }  // namespace
 
 void CellLocalizerParams::check() const {
-  requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e6);
   requireInRange("threads", threads, 0.0, 1024.0);
   if (range && !(std::isinf(*range) && *range > 0.0)) requirePositive("range", *range);
   requireInRange("max_cells", static_cast<double>(max_cells), 1.0, 1e8);
@@ -58,37 +59,39 @@ void CellLocalizerParams::check() const {
 }
 
 struct CellLocalizer::Impl {
-  Impl(PolygonMap polygon_map, const CellLocalizerParams& parameters)
-      : params(parameters), map(std::move(polygon_map)) {
+  Impl(MapIndex::Ptr map_index, const CellLocalizerParams& parameters)
+      : params(parameters), index(std::move(map_index)) {
     {  // The cells go before the views come: together they would double the memory.
-      const VisibilityCells cells = makeCells(map, params);
+      const VisibilityCells cells = makeCells(index->map(), params);
       cell_count = cells.size();
       cell_range = cells.range();
       viewpoints = cellViewpoints(cells, params.spacing);
     }
-    predictor.emplace(Triangulation(map), RangePredictor::kSquareSize, params.threads);
-    views.emplace(
-        viewsFrom(viewpoints, *predictor, params.view.samples, params.view.range, params.threads));
+    views.emplace(viewsFrom(viewpoints, index->parts().predictor(), params.view.samples,
+                            params.view.range, params.threads));
   }
 
   CellLocalizerParams params;
-  PolygonMap map;
+  MapIndex::Ptr index;
   std::size_t cell_count = 0;
   double cell_range = 0.0;
   std::vector<TPoint2D> viewpoints;
-  std::optional<RangePredictor> predictor;
   std::optional<ViewIndex> views;
 };
 
-CellLocalizer::CellLocalizer(PolygonMap map, CellLocalizerParams params) {
+CellLocalizer::CellLocalizer(MapIndex::Ptr index, CellLocalizerParams params) {
   params.check();
-  impl_ = std::make_unique<Impl>(std::move(map), params);
+  if (!index) throw InvalidParamsError("index: there is none");
+  impl_ = std::make_unique<Impl>(std::move(index), params);
 }
+CellLocalizer::CellLocalizer(PolygonMap map, CellLocalizerParams params)
+    : CellLocalizer(MapIndex::deferred(std::move(map)), std::move(params)) {}
 CellLocalizer::~CellLocalizer() = default;
 CellLocalizer::CellLocalizer(CellLocalizer&&) noexcept = default;
+CellLocalizer& CellLocalizer::operator=(CellLocalizer&&) noexcept = default;
 
 const PolygonMap& CellLocalizer::map() const {
-  return impl_->map;
+  return impl_->index->map();
 }
 double CellLocalizer::cellRange() const {
   return impl_->cell_range;
@@ -104,16 +107,19 @@ const std::vector<TPoint2D>& CellLocalizer::viewpoints() const {
 }
 std::size_t CellLocalizer::indexBytes() const {
   return impl_->views->bytes() + impl_->viewpoints.capacity() * sizeof(TPoint2D) +
-         impl_->predictor->index().bytes();
+         impl_->index->bytes();
 }
 
-LocalizationResult CellLocalizer::localize(const RangeScan& scan, const PosePrior& prior) const {
+LocalizationResult CellLocalizer::localize(const RangeScan& scan, const PosePrior& prior,
+                                           const SearchOptions& options) const {
   prior.check();
+  options.check();
   const CellLocalizerParams& params = impl_->params;
   LocalizationResult result;
   result.statistics.positions = impl_->viewpoints.size();
   if (scan.hitCount() < params.least_hits) return result;
   const Stopwatch watch;
+  const Budget budget(options.time_budget_ms, options.cancel);
   const std::optional<ScanView> view = viewOfScan(scan, params.view);
   if (!view) return result;
 
@@ -142,14 +148,19 @@ LocalizationResult CellLocalizer::localize(const RangeScan& scan, const PosePrio
         TPose2D pose(p.x, p.y, neighbor.rotation);
         pose.normalizePhi();
         if (different.isNew(pose)) candidates.push_back(pose);
-        return candidates.size() < params.max_candidates;
+        return candidates.size() < params.max_candidates && !budget.isSpent();
       });
   result.statistics.search_ms = 1e3 * watch.seconds();
 
   const Stopwatch ranking;
-  LocalizationResult ranked = resultOf(
-      rankCandidates(candidates, scan, prior, *impl_->predictor,
-                     {params.max_hypotheses, params.cost, params.refinement, params.hypotheses}));
+  const MapIndexParts& parts = impl_->index->parts();
+  const AllowedPoses allowed(parts.triangulation(), prior, scan.sensor());
+  LocalizationResult ranked = resultOf(rankCandidates(
+      candidates, scan, allowed, parts.predictor(),
+      {options.max_hypotheses, params.cost, params.refinement, params.hypotheses}, budget));
+  if (ranked.status == LocalizationStatus::unique && budget.isSpent()) {
+    ranked.status = LocalizationStatus::ambiguous;  // what was left out may be as good
+  }
   ranked.statistics = result.statistics;
   ranked.statistics.refined = candidates.size();
   ranked.statistics.refinement_ms = 1e3 * ranking.seconds();

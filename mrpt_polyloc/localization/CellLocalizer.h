@@ -1,7 +1,8 @@
 #pragma once
 
-#include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
+#include <mrpt_polyloc/localization/MapIndex.h>
+#include <mrpt_polyloc/localization/SearchOptions.h>
 #include <mrpt_polyloc/localization/nearest_cells/ViewIndex.h>
 #include <mrpt_polyloc/localization/nearest_cells/scan_view.h>
 #include <mrpt_polyloc/localization/ranking/HypothesisParams.h>
@@ -18,8 +19,7 @@
 namespace mrpt_polyloc {
 
 struct CellLocalizerParams {
-  std::size_t max_hypotheses = 20;  ///< at most so many are returned
-  int threads = 0;                  ///< for the views of the cells; 0: all cores
+  int threads = 0;  ///< for the views of the cells; 0: all cores
   /// Range of the visibility cells [m], see VisibilityCellsParams. Not given: unlimited if the
   /// cells fit the budget, else the greatest of 0.0625 m times powers of 2^(1/2) at which they do.
   std::optional<double> range;
@@ -58,20 +58,25 @@ class CellLocalizer {
  public:
   /// \throws CellBudgetError if the map has too many cells in the range given or, none given, of
   /// any range; InvalidMapError, InvalidParamsError
+  explicit CellLocalizer(MapIndex::Ptr index, CellLocalizerParams params = {});
+  /// With an index of its own.
   explicit CellLocalizer(PolygonMap map, CellLocalizerParams params = {});
   ~CellLocalizer();
   CellLocalizer(CellLocalizer&&) noexcept;
+  CellLocalizer& operator=(CellLocalizer&&) noexcept;
 
   /// Poses that explain the scan. Never throws for what a scan contains: a scan that cannot be
   /// localized is a status. \throws InvalidParamsError for a prior that is not finite or in range
-  LocalizationResult localize(const RangeScan& scan, const PosePrior& prior = {}) const;
+  /// Of the options, the metric and regions have no meaning here.
+  LocalizationResult localize(const RangeScan& scan, const PosePrior& prior = {},
+                              const SearchOptions& options = {}) const;
 
   const PolygonMap& map() const;
   double cellRange() const;        ///< of the cells, see CellLocalizerParams::range [m]
   std::size_t cellCount() const;   ///< visibility cells
   const ViewIndex& views() const;  ///< one or more per cell
   const std::vector<TPoint2D>& viewpoints() const;  ///< where they are taken [m]
-  std::size_t indexBytes() const;                   ///< memory of what was prepared
+  std::size_t indexBytes() const;  ///< memory of what was prepared, the map's index included
 
  private:
   struct Impl;

@@ -1,19 +1,15 @@
+#include <mrpt_polyloc/base/Budget.h>
 #include <mrpt_polyloc/base/Stopwatch.h>
-#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/base/params_check.h>
-#include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
+#include <mrpt_polyloc/localization/MapIndexParts.h>
 #include <mrpt_polyloc/localization/ranking/candidate_ranking.h>
-#include <mrpt_polyloc/localization/search/BandQuery.h>
+#include <mrpt_polyloc/localization/scan/AllowedPoses.h>
 #include <mrpt_polyloc/localization/search/CertifiedSearch.h>
-#include <mrpt_polyloc/localization/search/PoseScorer.h>
-#include <mrpt_polyloc/localization/search/SearchTree.h>
-#include <mrpt_polyloc/localization/search/search_index_file.h>
-#include <mrpt_polyloc/visibility/RangePredictor.h>
 
-#include <algorithm>
+#include <tbb/parallel_for.h>
+
 #include <utility>
-#include <vector>
 
 namespace mrpt_polyloc {
 namespace {
@@ -35,12 +31,15 @@ std::vector<PoseRegion> regionsOf(const CertifiedSearchResult& found, const Sear
   return regions;
 }
 
+std::vector<TPose2D> posesOf(const std::vector<PoseCandidate>& candidates) {
+  std::vector<TPose2D> poses;
+  for (const PoseCandidate& candidate : candidates) poses.push_back(candidate.pose_map_beams);
+  return poses;
+}
+
 }  // namespace
 
 void GlobalLocalizerParams::check() const {
-  requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e6);
-  requireInRange("threads", threads, 0.0, 1024.0);
-  requireInRange("leaf_size", leaf_size, 0.01, 10.0);
   cost.check();
   search_cost.check();
   certified.check();
@@ -48,112 +47,70 @@ void GlobalLocalizerParams::check() const {
   hypotheses.check();
 }
 
-struct GlobalLocalizer::Impl {
-  Impl(PolygonMap polygon_map, const GlobalLocalizerParams& parameters)
-      : params(parameters),
-        map(std::move(polygon_map)),
-        triangulation(map),
-        predictor(triangulation, 2.0 * params.leaf_size, params.threads),
-        tree(triangulation, predictor, {params.leaf_size, params.threads}),
-        build_seconds(watch.seconds()) {}
-
-  Impl(PolygonMap polygon_map, SearchIndex index, const GlobalLocalizerParams& parameters)
-      : params(parameters),
-        map(std::move(polygon_map)),
-        triangulation(map),
-        predictor(triangulation, std::move(index.edges)),
-        tree(std::move(index.tree)),
-        build_seconds(watch.seconds()) {
-    if (predictor.index().lists().square_size != 2.0 * tree.leafSize()) {
-      throw InvalidMapError("index: its parts are not of one size");
-    }
-  }
-
-  /// The poses to be refined, and what is known of the others.
-  std::vector<TPose2D> search(const RangeScan& scan, const PosePrior& prior,
-                              LocalizationResult& result) const;
-
-  Stopwatch watch;
-  GlobalLocalizerParams params;
-  PolygonMap map;
-  Triangulation triangulation;
-  RangePredictor predictor;
-  SearchTree tree;
-  double build_seconds;
-};
-
-std::vector<TPose2D> GlobalLocalizer::Impl::search(const RangeScan& scan, const PosePrior& prior,
-                                                   LocalizationResult& result) const {
-  const BandQuery query(scan, params.search_cost, params.search_metric);
-  const PoseScorer scorer(predictor, query, scan.sensor(), params.search_cost, params.refinement);
-  const CertifiedSearchResult found =
-      searchTree(tree, query, prior, scan.sensor(), scorer, params.certified);
-  result.statistics.positions = tree.nodes(0).size();
-  result.statistics.evaluated = found.evaluated;
-  result.certificate = Certificate{found.certified_cost, found.is_complete, found.regions.size()};
-  if (params.keep_regions) result.regions = regionsOf(found, tree, query);
-  std::vector<TPose2D> poses;
-  for (const PoseCandidate& candidate : found.candidates) poses.push_back(candidate.pose_map_beams);
-  return poses;
+void SearchOptions::check() const {
+  requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e6);
+  requireNotNegative("time_budget_ms", time_budget_ms);
 }
 
-GlobalLocalizer::GlobalLocalizer(PolygonMap map, GlobalLocalizerParams params) {
-  params.check();
-  impl_ = std::make_unique<Impl>(std::move(map), params);
-}
-GlobalLocalizer::GlobalLocalizer(PolygonMap map, const std::string& index, const std::string& file,
-                                 GlobalLocalizerParams params) {
-  params.check();
-  SearchIndex parsed = parseIndex(index, file, map.hash());
-  try {
-    impl_ = std::make_unique<Impl>(std::move(map), std::move(parsed), params);
-  } catch (const InvalidMapError& error) {
-    throw FormatError(file, "", error.what());
-  } catch (const InvalidParamsError& error) {
-    throw FormatError(file, "", error.what());
-  }
-}
-GlobalLocalizer::~GlobalLocalizer() = default;
-GlobalLocalizer::GlobalLocalizer(GlobalLocalizer&&) noexcept = default;
-
-const PolygonMap& GlobalLocalizer::map() const {
-  return impl_->map;
-}
-std::size_t GlobalLocalizer::indexBytes() const {
-  return impl_->tree.bytes() + impl_->predictor.index().bytes();
-}
-std::string GlobalLocalizer::serializedIndex() const {
-  return serializeIndex(impl_->predictor.index().lists(), impl_->tree.data(), impl_->map.hash());
-}
-double GlobalLocalizer::indexBuildSeconds() const {
-  return impl_->build_seconds;
+GlobalLocalizer::GlobalLocalizer(MapIndex::Ptr index, GlobalLocalizerParams params)
+    : index_(std::move(index)), params_(std::move(params)) {
+  params_.check();
+  if (!index_) throw InvalidParamsError("index: there is none");
+  index_->parts().tree();
 }
 
-LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePrior& prior) const {
+GlobalLocalizer::GlobalLocalizer(PolygonMap map, GlobalLocalizerParams params)
+    : GlobalLocalizer(MapIndex::build(std::move(map)), std::move(params)) {}
+
+LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePrior& prior,
+                                             const SearchOptions& options) const {
   prior.check();
-  const GlobalLocalizerParams& params = impl_->params;
-  LocalizationResult found;
-  if (scan.hitCount() < params.least_hits) return found;
-
+  options.check();
+  if (scan.hitCount() < params_.least_hits) return {};
   const Stopwatch watch;
-  const std::vector<TPose2D> candidates = impl_->search(scan, prior, found);
+  const Budget budget(options.time_budget_ms, options.cancel);
+  const MapIndexParts& parts = index_->parts();
+  const RangePredictor& predictor = parts.predictor();
+  const SearchTree& tree = parts.tree();
+  const AllowedPoses allowed(parts.triangulation(), prior, scan.sensor());
+
+  // All poses but those that are proven to cost more.
+  const BandQuery query(scan, params_.search_cost, options.metric);
+  const PoseScorer scorer(predictor, query, scan.sensor(), allowed, params_.search_cost,
+                          params_.refinement);
+  const CertifiedSearchResult found =
+      searchTree(tree, query, prior, scan.sensor(), scorer, budget, params_.certified);
   const double search_ms = 1e3 * watch.seconds();
-  const Stopwatch ranking;
-  LocalizationResult result = resultOf(
-      rankCandidates(candidates, scan, prior, impl_->predictor,
-                     {params.max_hypotheses, params.cost, params.refinement, params.hypotheses}));
-  result.statistics = found.statistics;
-  result.statistics.search_ms = search_ms;
-  result.statistics.refined = candidates.size();
-  result.statistics.refinement_ms = 1e3 * ranking.seconds();
-  result.certificate = found.certificate;
+
+  // Refined, merged, ranked; and what they mean.
+  LocalizationResult result = resultOf(rankCandidates(
+      posesOf(found.candidates), scan, allowed, predictor,
+      {options.max_hypotheses, params_.cost, params_.refinement, params_.hypotheses}, budget));
+  if (found.certified_cost) {
+    result.certificate =
+        Certificate{*found.certified_cost, found.is_complete, found.regions.size()};
+  }
   // What a budget left out may be as good.
-  if (result.status == LocalizationStatus::unique && found.certificate &&
-      !found.certificate->is_complete) {
+  const bool is_cut_short = !found.is_complete || budget.isSpent();
+  if (result.status == LocalizationStatus::unique && is_cut_short) {
     result.status = LocalizationStatus::ambiguous;
   }
-  result.regions = std::move(found.regions);
+  if (options.keep_regions) result.regions = regionsOf(found, tree, query);
+  result.statistics.positions = tree.nodes(0).size();
+  result.statistics.evaluated = found.evaluated;
+  result.statistics.refined = found.candidates.size();
+  result.statistics.search_ms = search_ms;
+  result.statistics.refinement_ms = 1e3 * watch.seconds() - search_ms;
   return result;
+}
+
+std::vector<LocalizationResult> GlobalLocalizer::localize(const std::vector<RangeScan>& scans,
+                                                          const PosePrior& prior,
+                                                          const SearchOptions& options) const {
+  std::vector<LocalizationResult> results(scans.size());
+  tbb::parallel_for(std::size_t{0}, scans.size(),
+                    [&](std::size_t i) { results[i] = localize(scans[i], prior, options); });
+  return results;
 }
 
 }  // namespace mrpt_polyloc

@@ -33,8 +33,18 @@ const mrpt::maps::CMetricMap& notNull(const mrpt::maps::CMetricMap* other) {
 }  // namespace
 
 void CPolygonMap2D::setMap(PolygonMap map) {
-  content_ = std::make_shared<const PolygonMapContent>(std::move(map));
-  content_->predictor();
+  setMap(MapIndex::deferred(std::move(map)));
+}
+
+void CPolygonMap2D::setMap(MapIndex::Ptr index) {
+  if (!index) throw InvalidParamsError("CPolygonMap2D: the index is null");
+  auto content = std::make_shared<const PolygonMapContent>(std::move(index));
+  content->predictor();
+  content_ = std::move(content);
+}
+
+MapIndex::Ptr CPolygonMap2D::index() const {
+  return content_ ? content_->index() : nullptr;
 }
 
 const PolygonMap* CPolygonMap2D::map() const {

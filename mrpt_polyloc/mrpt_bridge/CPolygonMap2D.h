@@ -3,6 +3,7 @@
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/io/map_files.h>
 #include <mrpt_polyloc/io/mrpt_compat.h>
+#include <mrpt_polyloc/localization/MapIndex.h>
 #include <mrpt_polyloc/mrpt_bridge/PolygonLikelihood.h>
 
 #include <mrpt/maps/CMetricMap.h>
@@ -30,9 +31,15 @@ class CPolygonMap2D : public mrpt::maps::CMetricMap {
  public:
   CPolygonMap2D() = default;
   explicit CPolygonMap2D(PolygonMap map) { setMap(std::move(map)); }
+  explicit CPolygonMap2D(MapIndex::Ptr index) { setMap(std::move(index)); }
 
   /// Builds the index of what is seen from where: up to a second for the largest maps.
   void setMap(PolygonMap map);
+  /// With an index that others use as well: a localizer, a particle seeder. Prepares of it what
+  /// weighing scans needs, if it is a deferred one. \throws InvalidParamsError if it is null
+  void setMap(MapIndex::Ptr index);
+  /// For others to share; null if the map is empty.
+  MapIndex::Ptr index() const;
   /// Null if empty.
   const PolygonMap* map() const;
 

@@ -45,6 +45,7 @@ TLikelihoodOptions fitOptions() {
 }  // namespace
 
 void FilterRecoveryParams::check() const {
+  requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e6);
   monitor.check();
   requireInRange("share", share, 0.0, 1.0);
   requireNotNegative("least_gain", least_gain);
@@ -92,9 +93,15 @@ FilterRecovery::FilterRecovery(const GlobalLocalizer& localizer, const ParticleS
   params_.check();
 }
 
+LocalizationResult FilterRecovery::search(const RangeScan& scan) const {
+  SearchOptions options;
+  options.max_hypotheses = params_.max_hypotheses;
+  return localizer_->localize(scan, {}, options);
+}
+
 LocalizationResult FilterRecovery::start(const CObservation2DRangeScan& scan, std::uint64_t seed,
                                          CPosePDFParticles& particles) {
-  LocalizationResult found = localizer_->localize(toRangeScan(scan));
+  LocalizationResult found = search(toRangeScan(scan));
   seeder_->seed(found, seed, particles);
   is_placed_ = !found.hypotheses.empty();
   return found;
@@ -115,7 +122,7 @@ FilterRecovery::Verdict FilterRecovery::update(const CObservation2DRangeScan& sc
     return verdict;
   }
 
-  verdict.search = localizer_->localize(beams);
+  verdict.search = search(beams);
   if (verdict.search->hypotheses.empty()) return verdict;
   const Hypothesis& best = verdict.search->hypotheses.front();
   verdict.best_fit = -best.cost / fitOptions().sigma;

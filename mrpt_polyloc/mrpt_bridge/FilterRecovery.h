@@ -35,6 +35,7 @@ struct FilterRecoveryParams {
   std::size_t judged_particles = 50;
   /// Scans with fewer hits are not judged: they fit almost everywhere.
   std::size_t least_hits = 15;
+  std::size_t max_hypotheses = 20;  ///< of a search, so many are seeded or mixed in
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;
@@ -84,6 +85,8 @@ class FilterRecovery {
                  mrpt::poses::CPosePDFParticles& particles);
 
  private:
+  LocalizationResult search(const RangeScan& scan) const;
+
   const GlobalLocalizer* localizer_;
   const ParticleSeeder* seeder_;
   CPolygonMap2D map_;

@@ -1,10 +1,12 @@
 #include <mrpt_polyloc/base/params_check.h>
+#include <mrpt_polyloc/localization/MapIndexParts.h>
 #include <mrpt_polyloc/mrpt_bridge/ParticleSeeder.h>
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 namespace mrpt_polyloc {
@@ -77,6 +79,12 @@ void replace(Particles& particles, const std::vector<WeightedPose>& drawn, SetPo
   }
 }
 
+/// Shared with the index, and keeps it alive.
+std::shared_ptr<const Triangulation> triangulationOf(const MapIndex::Ptr& index) {
+  if (!index) throw InvalidParamsError("index: there is none");
+  return {index, &index->parts().triangulation()};
+}
+
 }  // namespace
 
 void ParticleSeederParams::check() const {
@@ -95,6 +103,11 @@ CPosePDFSOG toSog(const LocalizationResult& result) {
     modes.push_back(mode);
   }
   return modes;
+}
+
+ParticleSeeder::ParticleSeeder(const MapIndex::Ptr& index, const ParticleSeederParams& params)
+    : free_space_(triangulationOf(index)), params_(params) {
+  params_.check();
 }
 
 ParticleSeeder::ParticleSeeder(const PolygonMap& map, const ParticleSeederParams& params)

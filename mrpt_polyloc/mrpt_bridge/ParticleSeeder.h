@@ -2,6 +2,7 @@
 
 #include <mrpt_polyloc/geometry/FreeSpaceSampler.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
+#include <mrpt_polyloc/localization/MapIndex.h>
 
 #include <mrpt/poses/CPose3DPDFParticles.h>
 #include <mrpt/poses/CPosePDFParticles.h>
@@ -44,7 +45,9 @@ mrpt::poses::CPosePDFSOG toSog(const LocalizationResult& result);
 /// Gaussians, and CPosePDFSOG::drawManySamples() throws. Const and thread-safe.
 class ParticleSeeder {
  public:
-  /// Keeps no reference to the map. \throws InvalidParamsError
+  /// \throws InvalidParamsError, also if the index is null; InvalidMapError without free space
+  explicit ParticleSeeder(const MapIndex::Ptr& index, const ParticleSeederParams& params = {});
+  /// With a triangulation of its own; keeps no reference to the map.
   explicit ParticleSeeder(const PolygonMap& map, const ParticleSeederParams& params = {});
 
   /// Particles whose weights sum to 1, all of them finite logarithms; the same for the same seed.

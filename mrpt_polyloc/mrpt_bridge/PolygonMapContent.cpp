@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/geometry/validation.h>
 #include <mrpt_polyloc/io/geojson.h>
+#include <mrpt_polyloc/localization/MapIndexParts.h>
 #include <mrpt_polyloc/mrpt_bridge/PolygonMapContent.h>
 
 #include <functional>
@@ -47,24 +48,21 @@ LivingContents& living() {
 PolygonMapContent::Ptr PolygonMapContent::fromText(const std::string& text) {
   if (Ptr shared = living().find(text)) return shared;
   const auto content = std::make_shared<const PolygonMapContent>(
-      repairMap(parseGeoJson(text, "stored CPolygonMap2D")).map);
+      MapIndex::deferred(repairMap(parseGeoJson(text, "stored CPolygonMap2D")).map));
   textOf(content);
   return content;
 }
 
 const std::string& PolygonMapContent::textOf(const Ptr& content) {
-  std::call_once(content->text_made_, [&] {
-    content->text_ = toGeoJson(content->map_);
-    living().add(content->text_, content);
-  });
-  return content->text_;
+  if (content->text_.isMade()) return content->text_.value();
+  // Added once it is made: what is alive is asked for its text, by other threads at once.
+  const std::string& text = content->text_.get([&] { return toGeoJson(content->map()); });
+  living().add(text, content);
+  return text;
 }
 
 const RangePredictor& PolygonMapContent::predictor() const {
-  // The predictor's threads are those of a task arena of its own: the one that makes it takes no
-  // task of a caller's parallel loop meanwhile, which might wait for the same flag.
-  std::call_once(predictor_made_, [this] { predictor_.emplace(Triangulation(map_)); });
-  return *predictor_;
+  return index_->parts().predictor();
 }
 
 }  // namespace mrpt_polyloc

@@ -1,12 +1,11 @@
 #pragma once
 
+#include <mrpt_polyloc/base/Lazy.h>
 #include <mrpt_polyloc/geometry/NearestWalls.h>
-#include <mrpt_polyloc/geometry/PolygonMap.h>
+#include <mrpt_polyloc/localization/MapIndex.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -20,7 +19,8 @@ class PolygonMapContent {
  public:
   using Ptr = std::shared_ptr<const PolygonMapContent>;
 
-  explicit PolygonMapContent(PolygonMap map) : map_(std::move(map)), walls_(map_) {}
+  explicit PolygonMapContent(MapIndex::Ptr index)
+      : index_(std::move(index)), walls_(index_->map()) {}
 
   /// The content that has this text, if some map of this process that was stored or loaded still
   /// holds it; else a new one, read as GeoJSON and validated (milliseconds).
@@ -29,18 +29,17 @@ class PolygonMapContent {
   /// The map as GeoJSON, which keeps every bit.
   static const std::string& textOf(const Ptr& content);
 
-  const PolygonMap& map() const { return map_; }
+  const MapIndex::Ptr& index() const { return index_; }
+  const PolygonMap& map() const { return index_->map(); }
   const NearestWalls& walls() const { return walls_; }
   /// Made when first asked for, which takes up to seconds for the largest maps: a map that is only
   /// stored, loaded or looked at needs none.
   const RangePredictor& predictor() const;
 
  private:
-  PolygonMap map_;
+  MapIndex::Ptr index_;
   NearestWalls walls_;
-  mutable std::once_flag predictor_made_, text_made_;
-  mutable std::optional<RangePredictor> predictor_;
-  mutable std::string text_;
+  Lazy<std::string> text_;
 };
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/params_check.h>
+#include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/polar/PolarFunction.h>
 
 #include <algorithm>
@@ -17,12 +18,6 @@ using mrpt::math::TPoint2D;
 using Piece = PolarFunction::Piece;
 using PieceKind = PolarFunction::PieceKind;
 
-double dot(const TPoint2D& a, const TPoint2D& b) {
-  return a.x * b.x + a.y * b.y;
-}
-double cross(const TPoint2D& a, const TPoint2D& b) {
-  return a.x * b.y - a.y * b.x;
-}
 TPoint2D unitVector(double angle) {
   return {std::cos(angle), std::sin(angle)};
 }

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/Checksum.h>
 #include <mrpt_polyloc/visibility/BoundaryChains.h>
 
 #include <algorithm>
@@ -89,6 +90,17 @@ void BoundaryChains::layOut(const Triangulation& t, Passage kind,
   for (const HalfEdge edge : edges) {
     if (numbers[edge] == kNone) chain(edge);  // then the closed ones from anywhere
   }
+}
+
+std::uint64_t BoundaryChains::hash() const {
+  Checksum checksum;
+  checksum.add(&origin_.x, sizeof(origin_.x));
+  checksum.add(&origin_.y, sizeof(origin_.y));
+  checksum.add(&unit_, sizeof(unit_));
+  checksum.add(x_.data(), x_.size() * sizeof(x_[0]));
+  checksum.add(y_.data(), y_.size() * sizeof(y_[0]));
+  checksum.add(is_edge_.data(), is_edge_.size());
+  return checksum.value();
 }
 
 std::size_t BoundaryChains::bytes() const {

@@ -2,6 +2,7 @@
 
 #include <mrpt_polyloc/geometry/Triangulation.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -55,6 +56,9 @@ class BoundaryChains {
   const std::vector<Run>& walls() const { return walls_; }
   const std::vector<Run>& open() const { return open_; }
 
+  /// Of all that numbers refer to: the order of the vertices follows from that of the faces, which
+  /// another version of the triangulation may lay out otherwise.
+  std::uint64_t hash() const;
   std::size_t bytes() const;
 
  private:

@@ -73,8 +73,9 @@ struct RangePredictor::Workspace {
   HitColumns hits;
 };
 
-RangePredictor::RangePredictor(const Triangulation& triangulation, double square_size, int threads)
-    : box_(triangulation.box()), index_(triangulation, square_size, threads) {}
+RangePredictor::RangePredictor(const Triangulation& triangulation, double square_size, int threads,
+                               BuildProgress* progress)
+    : box_(triangulation.box()), index_(triangulation, square_size, threads, progress) {}
 
 RangePredictor::RangePredictor(const Triangulation& triangulation, VisibleEdgeIndex::Lists lists)
     : box_(triangulation.box()), index_(triangulation, std::move(lists)) {}

@@ -44,7 +44,7 @@ class RangePredictor {
 
   /// Keeps no reference to the triangulation. \param threads for the index; 0: all cores
   explicit RangePredictor(const Triangulation& triangulation, double square_size = kSquareSize,
-                          int threads = 0);
+                          int threads = 0, BuildProgress* progress = nullptr);
 
   /// With lists found before. \throws InvalidMapError unless they may be those of the map
   RangePredictor(const Triangulation& triangulation, VisibleEdgeIndex::Lists lists);

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/visibility/SquareExpander.h>
 
 #include <algorithm>
@@ -9,10 +10,6 @@ namespace {
 
 /// A cone that keeps growing is opened to the whole edge: bounds the work.
 constexpr std::int32_t kMostWidenings = 6;
-
-double cross(const TPoint2D& a, const TPoint2D& b) {
-  return a.x * b.y - a.y * b.x;
-}
 
 /// The 1-norm of b - a.
 double extent(const TPoint2D& a, const TPoint2D& b) {

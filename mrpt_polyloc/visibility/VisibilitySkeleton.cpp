@@ -1,4 +1,6 @@
+#include <mrpt_polyloc/base/Checksum.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/visibility/VisibilitySkeleton.h>
 
 #include <algorithm>
@@ -11,13 +13,6 @@ namespace {
 
 using Gap = VisibilitySkeleton::Gap;
 using mrpt::math::TPose2D;
-
-double cross(const TPoint2D& a, const TPoint2D& b) {
-  return a.x * b.y - a.y * b.x;
-}
-double dot(const TPoint2D& a, const TPoint2D& b) {
-  return a.x * b.x + a.y * b.y;
-}
 
 /// How the edge in a gap ends, as a letter.
 int ending(const Gap& gap) {
@@ -168,13 +163,13 @@ VisibilitySkeleton::VisibilitySkeleton(std::vector<Gap> gaps) : gaps_(std::move(
   if (gaps_.empty()) throw InvalidParamsError("a visibility skeleton without gaps");
   start_ = leastRotation(gaps_);
   period_ = periodOf(gaps_);
-  key_ = 1469598103934665603U;  // FNV-1a
+  Fnv hash;
   const std::size_t q = gaps_.size();
   for (std::size_t i = 0; i < q; ++i) {
-    key_ ^= static_cast<std::uint64_t>(ending(gaps_[(start_ + i) % q]));
-    key_ *= 1099511628211U;
+    hash.addNumber(static_cast<std::uint64_t>(ending(gaps_[(start_ + i) % q])));
     ring_length_ += (gaps_[(i + 1) % q].vertex - gaps_[i].vertex).norm();
   }
+  key_ = hash.value();
 }
 
 VisibilitySkeleton skeletonOf(const Triangulation& triangulation, const View& view, double flat) {

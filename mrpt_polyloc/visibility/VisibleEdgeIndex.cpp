@@ -32,19 +32,21 @@ bool overlap(const Triangulation& t, const Triangulation::Face& face, const Squa
 }  // namespace
 
 VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, double square_size,
-                                   int threads)
-    : VisibleEdgeIndex(triangulation, triangulation.wallsAlone(), square_size, threads) {}
+                                   int threads, BuildProgress* progress)
+    : VisibleEdgeIndex(triangulation, triangulation.wallsAlone(), square_size, threads, progress) {}
 
 VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, const Triangulation& walls,
-                                   double square_size, int threads)
+                                   double square_size, int threads, BuildProgress* progress)
     : chains_(triangulation, walls) {
+  lists_.layout = chains_.hash();
   layGrid(triangulation.box(), square_size);
   const std::size_t lists = numberLists(triangulation);
-  const auto seen_walls = findRuns(walls, lists, threads, [this](std::size_t face, std::size_t i) {
-    return chains_.wallNumber(face, i);
-  });
+  if (progress != nullptr) progress->begin(2 * lists);
+  const auto seen_walls =
+      findRuns(walls, lists, threads, progress,
+               [this](std::size_t face, std::size_t i) { return chains_.wallNumber(face, i); });
   const auto seen_open =
-      findRuns(triangulation, lists, threads,
+      findRuns(triangulation, lists, threads, progress,
                [this](std::size_t face, std::size_t i) { return chains_.openNumber(face, i); });
   lists_.begin.push_back(0);
   for (std::size_t i = 0; i < lists; ++i) {
@@ -63,13 +65,19 @@ VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, Lists lis
   const auto require = [](bool is_met) {
     if (!is_met) throw InvalidMapError("index of visible edges: not of this map");
   };
-  require(lists_.of_square.size() ==
-          static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  if (lists_.layout != chains_.hash()) {
+    throw InvalidMapError(
+        "index of visible edges: refers to walls laid out otherwise (made by another version?)");
+  }
   require(lists_.begin.size() % 2 == 1 && lists_.begin.front() == 0 &&
           lists_.begin.back() == lists_.runs.size() &&
           std::is_sorted(lists_.begin.begin(), lists_.begin.end()));
-  const auto count = static_cast<std::int32_t>(lists_.begin.size() / 2);
-  for (const std::int32_t list : lists_.of_square) require(list >= -1 && list < count);
+  require(lists_.squares.size() == lists_.begin.size() / 2);
+  for (const SquarePlace& place : lists_.squares) {
+    require(place.column >= 0 && place.column < grid_.columns() && place.row >= 0 &&
+            place.row < grid_.rows() && grid_.at(place.column, place.row) == TiledGrid::kNone);
+    grid_.put(place.column, place.row, static_cast<std::int32_t>(&place - lists_.squares.data()));
+  }
   for (const Run& run : lists_.runs) {
     require(std::size_t{run.first} + run.edges < chains_.vertexCount());
   }
@@ -84,35 +92,31 @@ void VisibleEdgeIndex::layGrid(const BoundingBox& box, double square_size) {
   lists_.square_size = square_size;
   const double columns = std::floor((box.max.x - box.min.x) / square_size) + 1;
   const double rows = std::floor((box.max.y - box.min.y) / square_size) + 1;
-  constexpr double kMostSquares = 1 << 30;
-  if (columns * rows > kMostSquares) {
+  constexpr double kMostSquares = 1e12;  // a directory of a gigabyte
+  if (columns * rows > kMostSquares || std::max(columns, rows) > kMostSquares / 1e4) {
     throw InvalidParamsError("square_size: " + std::to_string(square_size) +
                              " gives too many squares for a map of this size");
   }
-  columns_ = static_cast<int>(columns);
-  rows_ = static_cast<int>(rows);
+  grid_ = TiledGrid(static_cast<int>(columns), static_cast<int>(rows));
 }
 
-template <class Visitor>
-void VisibleEdgeIndex::forEachOverlap(const Triangulation& t, Visitor&& visit) const {
-  for (std::size_t f = 0; f < t.faces().size(); ++f) {
-    const Triangulation::Face& face = t.faces()[f];
-    TPoint2D low = t.vertices()[static_cast<std::size_t>(face.vertex[0])], high = low;
-    for (const std::int32_t v : face.vertex) {
-      const TPoint2D& p = t.vertices()[static_cast<std::size_t>(v)];
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    const auto column = [this](double x) {
-      return std::clamp(static_cast<int>((x - corner_.x) / lists_.square_size), 0, columns_ - 1);
-    };
-    const auto row = [this](double y) {
-      return std::clamp(static_cast<int>((y - corner_.y) / lists_.square_size), 0, rows_ - 1);
-    };
-    for (int r = row(low.y); r <= row(high.y); ++r) {
-      for (int c = column(low.x); c <= column(high.x); ++c) visit(f, c, r);
-    }
+/// The squares that the box of a face meets.
+VisibleEdgeIndex::SquareRange VisibleEdgeIndex::rangeOf(const Triangulation& t,
+                                                        const Triangulation::Face& face) const {
+  TPoint2D low = t.vertices()[static_cast<std::size_t>(face.vertex[0])], high = low;
+  for (const std::int32_t v : face.vertex) {
+    const TPoint2D& p = t.vertices()[static_cast<std::size_t>(v)];
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
+  const auto column = [this](double x) {
+    return std::clamp(static_cast<int>((x - corner_.x) / lists_.square_size), 0,
+                      grid_.columns() - 1);
+  };
+  const auto row = [this](double y) {
+    return std::clamp(static_cast<int>((y - corner_.y) / lists_.square_size), 0, grid_.rows() - 1);
+  };
+  return {column(low.x), column(high.x), row(low.y), row(high.y)};
 }
 
 Square VisibleEdgeIndex::square(int column, int row) const {
@@ -122,47 +126,49 @@ Square VisibleEdgeIndex::square(int column, int row) const {
           (0.5 + 1e-6) * lists_.square_size};
 }
 
+/// All squares that touch free space, and those next to them.
 std::size_t VisibleEdgeIndex::numberLists(const Triangulation& t) {
-  std::vector<char> touches_free(static_cast<std::size_t>(columns_) *
-                                 static_cast<std::size_t>(rows_));
-  const auto number = [this](int column, int row) {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column);
-  };
-  forEachOverlap(t, [&](std::size_t f, int column, int row) {
-    char& touches = touches_free[number(column, row)];
-    if (!touches && t.faces()[f].is_free) touches = overlap(t, t.faces()[f], square(column, row));
-  });
-  lists_.of_square.assign(touches_free.size(), -1);
-  std::int32_t lists = 0;
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      bool near_free = false;
-      for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows_ - 1); ++r) {
-        for (int c = std::max(column - 1, 0); c <= std::min(column + 1, columns_ - 1); ++c) {
-          near_free |= touches_free[number(c, r)] != 0;
+  TiledGrid touched(grid_.columns(), grid_.rows());
+  for (const Triangulation::Face& face : t.faces()) {
+    if (!face.is_free) continue;
+    const SquareRange range = rangeOf(t, face);
+    for (int row = range.first_row; row <= range.last_row; ++row) {
+      for (int column = range.first_column; column <= range.last_column; ++column) {
+        if (touched.at(column, row) == TiledGrid::kNone && overlap(t, face, square(column, row))) {
+          touched.put(column, row, 1);
         }
       }
-      if (near_free) lists_.of_square[number(column, row)] = lists++;
     }
   }
-  return static_cast<std::size_t>(lists);
+  touched.forEach([this](int column, int row, std::int32_t) {
+    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, grid_.rows() - 1); ++r) {
+      for (int c = std::max(column - 1, 0); c <= std::min(column + 1, grid_.columns() - 1); ++c) {
+        grid_.put(c, r, 0);
+      }
+    }
+  });
+  grid_.forEach([this](int column, int row, std::int32_t) {
+    grid_.put(column, row, static_cast<std::int32_t>(lists_.squares.size()));
+    lists_.squares.push_back({column, row});
+  });
+  return lists_.squares.size();
 }
 
 template <class Numbers>
 std::vector<std::vector<VisibleEdgeIndex::Run>> VisibleEdgeIndex::findRuns(
-    const Triangulation& t, std::size_t lists, int threads, const Numbers& number) const {
-  std::vector<Square> squares(lists, Square{{0, 0}, 0});
+    const Triangulation& t, std::size_t lists, int threads, BuildProgress* progress,
+    const Numbers& number) const {
   std::vector<std::vector<std::int32_t>> faces(lists);
-  forEachOverlap(t, [&](std::size_t f, int column, int row) {
-    const std::int32_t list =
-        lists_.of_square[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                         static_cast<std::size_t>(column)];
-    if (list < 0) return;
-    const auto i = static_cast<std::size_t>(list);
-    squares[i] = square(column, row);
-    if (overlap(t, t.faces()[f], squares[i])) faces[i].push_back(static_cast<std::int32_t>(f));
-  });
+  for (std::size_t f = 0; f < t.faces().size(); ++f) {
+    const SquareRange range = rangeOf(t, t.faces()[f]);
+    grid_.forEachIn(
+        range.first_column, range.last_column, range.first_row, range.last_row,
+        [&](int column, int row, std::int32_t list) {
+          if (overlap(t, t.faces()[f], square(column, row))) {
+            faces[static_cast<std::size_t>(list)].push_back(static_cast<std::int32_t>(f));
+          }
+        });
+  }
 
   struct Worker {
     SquareExpander expander;
@@ -180,13 +186,15 @@ std::vector<std::vector<VisibleEdgeIndex::Run>> VisibleEdgeIndex::findRuns(
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
         worker.ends.clear();
         worker.numbers.clear();
-        worker.expander.expand(squares[i], faces[i], worker.ends);
+        const SquarePlace& place = lists_.squares[i];
+        worker.expander.expand(square(place.column, place.row), faces[i], worker.ends);
         for (const SquareExpander::HalfEdge edge : worker.ends) {
           const std::uint32_t n = number(edge / 3, edge % 3);
           if (n != BoundaryChains::kNone) worker.numbers.push_back(n);
         }
         runs[i] = runsOf(worker.numbers);
       }
+      if (progress != nullptr) progress->take(range.size());
     });
   });
   return runs;
@@ -218,9 +226,8 @@ std::vector<VisibleEdgeIndex::Run> VisibleEdgeIndex::runsOf(
 std::int64_t VisibleEdgeIndex::squareNumber(const TPoint2D& point) const {
   const double column = std::floor((point.x - corner_.x) / lists_.square_size);
   const double row = std::floor((point.y - corner_.y) / lists_.square_size);
-  if (!(column >= 0 && row >= 0 && column < columns_ && row < rows_)) return -1;
-  return lists_.of_square[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                          static_cast<std::size_t>(column)];
+  if (!(column >= 0 && row >= 0 && column < grid_.columns() && row < grid_.rows())) return -1;
+  return grid_.at(static_cast<int>(column), static_cast<int>(row));
 }
 
 VisibleEdgeIndex::EdgeRuns VisibleEdgeIndex::edgeRuns(std::int64_t number) const {
@@ -230,7 +237,7 @@ VisibleEdgeIndex::EdgeRuns VisibleEdgeIndex::edgeRuns(std::int64_t number) const
 }
 
 std::size_t VisibleEdgeIndex::bytes() const {
-  return chains_.bytes() + lists_.of_square.size() * sizeof(std::int32_t) +
+  return chains_.bytes() + grid_.bytes() + lists_.squares.size() * sizeof(SquarePlace) +
          lists_.begin.size() * sizeof(std::uint32_t) + lists_.runs.size() * sizeof(Run);
 }
 

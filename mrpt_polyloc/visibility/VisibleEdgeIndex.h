@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/BuildProgress.h>
+#include <mrpt_polyloc/base/TiledGrid.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/visibility/BoundaryChains.h>
 #include <mrpt_polyloc/visibility/SquareExpander.h>
@@ -26,15 +28,20 @@ class VisibleEdgeIndex {
 
   /// \param square_size side of the squares [m], > 0
   /// \param threads 0: all cores
-  /// \throws InvalidParamsError for a square size that is not positive, or gives more than 2^30
-  /// squares
-  VisibleEdgeIndex(const Triangulation& triangulation, double square_size, int threads = 0);
+  /// \throws InvalidParamsError for a square size that is not positive, or gives more than 10^12
+  /// squares to the map's box; CancelledError
+  VisibleEdgeIndex(const Triangulation& triangulation, double square_size, int threads = 0,
+                   BuildProgress* progress = nullptr);
 
+  struct SquarePlace {
+    std::int32_t column, row;
+  };
   /// What takes long to find, to be stored.
   struct Lists {
-    double square_size = 0.0;             ///< [m]
-    std::vector<std::int32_t> of_square;  ///< number of a square's lists, -1 if not indexed
-    std::vector<std::uint32_t> begin;     ///< into `runs`: walls at 2 i, open edges at 2 i + 1
+    double square_size = 0.0;          ///< [m]
+    std::uint64_t layout = 0;          ///< BoundaryChains::hash() of what `runs` refers to
+    std::vector<SquarePlace> squares;  ///< that have lists, row by row
+    std::vector<std::uint32_t> begin;  ///< into `runs`: walls at 2 i, open edges at 2 i + 1
     std::vector<Run> runs;
   };
   /// \throws InvalidMapError unless the lists may be those of the triangulation's map
@@ -54,24 +61,25 @@ class VisibleEdgeIndex {
   std::size_t bytes() const;
 
  private:
-  /// Calls visit(face, column, row) for each pair whose boxes overlap.
-  template <class Visitor>
-  void forEachOverlap(const Triangulation& t, Visitor&& visit) const;
+  struct SquareRange {
+    int first_column, last_column, first_row, last_row;
+  };
+  SquareRange rangeOf(const Triangulation& t, const Triangulation::Face& face) const;
   Square square(int column, int row) const;
   /// Numbers the squares to be indexed; returns how many there are.
   std::size_t numberLists(const Triangulation& t);
   /// The runs seen from each indexed square, given the numbers of a triangulation's edges.
   template <class Numbers>
   std::vector<std::vector<Run>> findRuns(const Triangulation& t, std::size_t lists, int threads,
-                                         const Numbers& number) const;
+                                         BuildProgress* progress, const Numbers& number) const;
   std::vector<Run> runsOf(std::vector<std::uint32_t>& numbers) const;
   VisibleEdgeIndex(const Triangulation& triangulation, const Triangulation& walls,
-                   double square_size, int threads);
+                   double square_size, int threads, BuildProgress* progress);
   void layGrid(const BoundingBox& box, double square_size);
 
   BoundaryChains chains_;
   TPoint2D corner_;  ///< lower left, of square (0, 0)
-  int columns_, rows_;
+  TiledGrid grid_;   ///< of the squares, each with the number of its lists
   Lists lists_;
 };
 

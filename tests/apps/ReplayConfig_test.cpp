@@ -63,7 +63,7 @@ TEST_F(ReplayConfigTest, ReadsEveryOption) {
   EXPECT_EQ(config.seeds.particles, 7U);
   EXPECT_EQ(config.seeds.least_per_hypothesis, 3U);
   EXPECT_EQ(config.seeds.uniform_share, 0.25);
-  EXPECT_EQ(config.search.max_hypotheses, 4U);
+  EXPECT_EQ(config.recovery.max_hypotheses, 4U);
   EXPECT_TRUE(config.odometry.replaces_recorded);
   EXPECT_FALSE(config.recovers);
   EXPECT_EQ(config.recovery.share, 0.75);

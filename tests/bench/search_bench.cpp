@@ -104,8 +104,8 @@ void searchOnPlan(benchmark::State& state, double area, const Condition& conditi
   }
   const auto n = static_cast<double>(ms.size());
   state.counters["area"] = map.area();
-  state.counters["index_s"] = localizer.indexBuildSeconds();
-  state.counters["index_mb"] = static_cast<double>(localizer.indexBytes()) / 1e6;
+  state.counters["index_s"] = localizer.index().buildSeconds();
+  state.counters["index_mb"] = static_cast<double>(localizer.index().bytes()) / 1e6;
   state.counters["ms_median"] = quantile(ms, 0.5);
   state.counters["ms_p90"] = quantile(ms, 0.9);
   state.counters["evaluated"] = evaluated / n;

@@ -1,3 +1,4 @@
+#include "tests/support/map_factories.h"
 #include "tests/support/random_maps.h"
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
@@ -263,6 +264,61 @@ TEST(Triangulation, LocatesInALargeNoisyMap) {
     ASSERT_NE(face, Triangulation::kNone);
     EXPECT_TRUE(holds(t, t.faces()[static_cast<std::size_t>(face)], p));
   }
+}
+
+TEST(Triangulation, BesideFreeSpaceIsWhatNoWallCutsOff) {
+  // A room of 4 x 4 m, open on its right side.
+  Ring ring = wallRing({{0, 0}, {4, 0}, {4, 4}, {0, 4}});
+  ring.kinds[1] = EdgeKind::open;
+  const Triangulation t(PolygonMap({{ring, {}}}));
+  EXPECT_TRUE(t.isFreeOrBeside({2, 2}, 0.5));
+  EXPECT_TRUE(t.isFreeOrBeside({4.4, 2}, 0.5));
+  EXPECT_FALSE(t.isFreeOrBeside({4.6, 2}, 0.5));
+  EXPECT_FALSE(t.isFreeOrBeside({-0.1, 2}, 0.5));  // behind a wall
+  EXPECT_FALSE(t.isFreeOrBeside({3.5, -0.1}, 0.5));
+  EXPECT_TRUE(t.isFreeOrBeside({4.2, 4.1}, 0.5));  // around the wall's end
+  EXPECT_FALSE(t.isFreeOrBeside({100, 2}, 0.5));   // outside the box
+}
+
+TEST(Triangulation, BesideFreeSpaceAgreesWithDenseSampling) {
+  std::mt19937 random(16);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  FloorPlanParams params;
+  params.unknown_share = 0.5;
+  params.rooms_per_side = 2;
+  const PolygonMap map = floorPlan(params, 16);
+  const Triangulation t(map);
+  constexpr double kDistance = 0.4;
+  int beside = 0, other = 0;
+  for (const TPoint2D& p : test::randomPoints(map, 0.9, 2000, random)) {
+    if (t.isFree(p)) continue;
+    // Straight ways into free space that stay off every wall are a part of all ways.
+    bool is_seen = false;
+    for (int k = 0; k < 400; ++k) {
+      const TPoint2D q{p.x + kDistance * unit(random), p.y + kDistance * unit(random)};
+      if ((q - p).norm() > kDistance || !t.isFree(q)) continue;
+      bool is_blocked = false;
+      for (const Ring* ring : map.rings()) {
+        for (std::size_t i = 0; i < ring->size(); ++i) {
+          if (ring->kinds[i] != EdgeKind::wall) continue;
+          const TPoint2D &a = ring->vertices[i], &b = ring->vertices[(i + 1) % ring->size()];
+          is_blocked |= test::segmentsCross(p, q, a, b);
+        }
+      }
+      for (const Polyline& wall : map.wallsBeyond()) {
+        for (std::size_t i = 1; i < wall.size(); ++i) {
+          is_blocked |= test::segmentsCross(p, q, wall[i - 1], wall[i]);
+        }
+      }
+      is_seen |= !is_blocked;
+    }
+    const bool found = t.isFreeOrBeside(p, kDistance);
+    EXPECT_TRUE(found || !is_seen) << p.x << " " << p.y;
+    EXPECT_TRUE(!found || t.isFreeOrBeside(p, kDistance + 1.0));
+    ++(found ? beside : other);
+  }
+  EXPECT_GT(beside, 20);
+  EXPECT_GT(other, 100);
 }
 
 }  // namespace

@@ -277,7 +277,6 @@ TEST(CellLocalizer, BadParamsAreNamed) {
   EXPECT_THAT(complaint([](auto& p) { p.max_candidates = 0; }), HasSubstr("max_candidates"));
   EXPECT_THAT(complaint([](auto& p) { p.distance_share = 0.5; }), HasSubstr("distance_share"));
   EXPECT_THAT(complaint([](auto& p) { p.distance_margin = -1; }), HasSubstr("distance_margin"));
-  EXPECT_THAT(complaint([](auto& p) { p.max_hypotheses = 0; }), HasSubstr("max_hypotheses"));
   EXPECT_THAT(complaint([](auto& p) { p.threads = -1; }), HasSubstr("threads"));
   EXPECT_THROW(inAsymmetricRoom().localize(simulatedScan(asymmetricRoom(), {1, 1, 0}),
                                            {PosePrior::Compass{0.0, 4.0}, {}}),

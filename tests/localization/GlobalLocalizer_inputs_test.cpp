@@ -113,15 +113,23 @@ TEST(GlobalLocalizerParams, ChecksNameTheField) {
     EXPECT_THROW(GlobalLocalizer(squareMap(1.0), params), InvalidParamsError);
     return complaintOf(params);
   };
-  EXPECT_THAT(complaint([](auto& p) { p.max_hypotheses = 0; }), HasSubstr("max_hypotheses"));
-  EXPECT_THAT(complaint([](auto& p) { p.threads = -1; }), HasSubstr("threads"));
-  for (const double bad : {0.0, -0.1, 11.0, std::nan("")}) {
-    EXPECT_THAT(complaint([bad](auto& p) { p.leaf_size = bad; }), HasSubstr("leaf_size"));
-  }
   EXPECT_THAT(complaint([](auto& p) { p.cost.tau_long = -1; }), HasSubstr("tau_long"));
   EXPECT_THAT(complaint([](auto& p) { p.certified.margin = -1; }), HasSubstr("margin"));
   EXPECT_THAT(complaint([](auto& p) { p.refinement.gate = 0; }), HasSubstr("gate"));
   EXPECT_THAT(complaint([](auto& p) { p.hypotheses.merge_angle = 0; }), HasSubstr("merge_angle"));
+}
+
+TEST(SearchOptions, ChecksNameTheField) {
+  SearchOptions options;
+  options.max_hypotheses = 0;
+  EXPECT_THAT(complaintOf(options), HasSubstr("max_hypotheses"));
+  options = {};
+  for (const double bad : {-1.0, std::nan("")}) {
+    options.time_budget_ms = bad;
+    EXPECT_THAT(complaintOf(options), HasSubstr("time_budget_ms"));
+    EXPECT_THROW(GlobalLocalizer(squareMap(1.0)).localize(RangeScan({}), {}, options),
+                 InvalidParamsError);
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "tests/support/simulated_scans.h"
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/search/BandQuery.h>
+#include <mrpt_polyloc/localization/search/angular_slack.h>
 
 #include <gtest/gtest.h>
 
@@ -21,11 +22,12 @@ using mrpt::math::TPose2D;
 /// The search cost, by rays cast against every edge in double.
 class BruteForceCost {
  public:
-  BruteForceCost(const PolygonMap& map, const RangeScan& scan, const GlobalLocalizerParams& params)
+  BruteForceCost(const PolygonMap& map, const RangeScan& scan,
+                 SearchMetric metric = SearchMetric::robust)
       : rays_(map),
-        beams_(BandQuery(scan, params.search_cost, params.search_metric).beams),
-        cost_(params.search_cost),
-        metric_(params.search_metric) {}
+        beams_(BandQuery(scan, GlobalLocalizerParams{}.search_cost, metric).beams),
+        cost_(GlobalLocalizerParams{}.search_cost),
+        metric_(metric) {}
 
   double operator()(const TPose2D& pose_map_beams) const {
     double sum = 0.0;
@@ -137,10 +139,16 @@ class Adversary {
   std::mt19937& random_;
 };
 
-GlobalLocalizerParams withRegions() {
+SearchOptions withRegions(SearchMetric metric = SearchMetric::robust) {
+  SearchOptions options;
+  options.keep_regions = true;
+  options.metric = metric;
+  return options;
+}
+
+GlobalLocalizerParams limitedTo(std::size_t max_nodes) {
   GlobalLocalizerParams params;
-  params.threads = 1;
-  params.keep_regions = true;
+  params.certified.max_nodes = max_nodes;
   return params;
 }
 
@@ -168,21 +176,20 @@ TEST(Certificate, NoPoseOutsideTheRegionsCostsLess) {
   for (std::uint32_t seed = 0; seed < 16; ++seed) {
     SCOPED_TRACE("map " + std::to_string(seed));
     const PolygonMap map = floorPlan(randomParams(random), seed);
-    const GlobalLocalizerParams params = withRegions();
-    const GlobalLocalizer localizer(map, params);
+    const GlobalLocalizer localizer(map);
     ++maps;
     for (const ScanOptions& options : kindsOfScans(seed)) {
       SCOPED_TRACE("scan " + std::to_string(scans));
       const TPoint2D place = randomFreePoints(map, 1, random).front();
       const TPose2D truth{place.x, place.y, std::uniform_real_distribution<>(-kPi, kPi)(random)};
       const RangeScan scan = simulatedScan(map, truth, options);
-      const LocalizationResult result = localizer.localize(scan);
+      const LocalizationResult result = localizer.localize(scan, {}, withRegions());
       if (result.status == LocalizationStatus::too_few_beams) continue;
       ++scans;
       ASSERT_TRUE(result.certificate);
       EXPECT_TRUE(result.certificate->is_complete);
       EXPECT_EQ(result.certificate->regions, result.regions.size());
-      const BruteForceCost cost(map, scan, params);
+      const BruteForceCost cost(map, scan);
       Adversary adversary(map, result, cost, random);
       adversary.search(300, 6, 60);
       adversary.climb(scan.beamFrameFromRobot(truth), 60);
@@ -206,17 +213,16 @@ TEST(Certificate, HoldsForThePolarMetric) {
   for (std::uint32_t seed = 0; seed < 8; ++seed) {
     SCOPED_TRACE("map " + std::to_string(seed));
     const PolygonMap map = floorPlan(randomParams(random), seed);
-    GlobalLocalizerParams params = withRegions();
-    params.search_metric = SearchMetric::polar;
-    const GlobalLocalizer localizer(map, params);
+    const GlobalLocalizer localizer(map);
     for (const ScanOptions& options : kindsOfScans(seed)) {
       const TPoint2D place = randomFreePoints(map, 1, random).front();
       const TPose2D truth{place.x, place.y, std::uniform_real_distribution<>(-kPi, kPi)(random)};
       const RangeScan scan = simulatedScan(map, truth, options);
-      const LocalizationResult result = localizer.localize(scan);
+      const LocalizationResult result =
+          localizer.localize(scan, {}, withRegions(SearchMetric::polar));
       if (result.status == LocalizationStatus::too_few_beams) continue;
       ASSERT_TRUE(result.certificate && result.certificate->is_complete);
-      const BruteForceCost cost(map, scan, params);
+      const BruteForceCost cost(map, scan, SearchMetric::polar);
       Adversary adversary(map, result, cost, random);
       adversary.search(200, 6, 60);
       adversary.climb(scan.beamFrameFromRobot(truth), 60);
@@ -230,13 +236,12 @@ TEST(Certificate, HoldsForThePolarMetric) {
 
 TEST(Certificate, CoversThePoseOfTheScanAndLeavesOutMostOfTheMap) {
   const PolygonMap map = floorPlan(largeFloor(), 3);
-  const GlobalLocalizerParams params = withRegions();
-  const GlobalLocalizer localizer(map, params);
+  const GlobalLocalizer localizer(map);
   std::mt19937 random(7);
   for (const TPoint2D& p : randomFreePoints(map, 8, random)) {
     const TPose2D truth{p.x, p.y, 1.0};
     const RangeScan scan = simulatedScan(map, truth);
-    const LocalizationResult result = localizer.localize(scan);
+    const LocalizationResult result = localizer.localize(scan, {}, withRegions());
     ASSERT_TRUE(result.certificate);
     // A scan without noise costs nothing where it was taken.
     EXPECT_TRUE(std::any_of(result.regions.begin(), result.regions.end(),
@@ -254,8 +259,7 @@ TEST(Certificate, CoversThePoseOfTheScanAndLeavesOutMostOfTheMap) {
 TEST(Certificate, HoldsUnderAPrior) {
   std::mt19937 random(8);
   const PolygonMap map = floorPlan(randomParams(random), 3);
-  const GlobalLocalizerParams params = withRegions();
-  const GlobalLocalizer localizer(map, params);
+  const GlobalLocalizer localizer(map);
   for (int i = 0; i < 6; ++i) {
     const TPoint2D place = randomFreePoints(map, 1, random).front();
     const TPose2D truth{place.x, place.y, 0.5 * i};
@@ -263,11 +267,11 @@ TEST(Certificate, HoldsUnderAPrior) {
     PosePrior prior;
     prior.compass = PosePrior::Compass{truth.phi + 0.1, 0.2};
     prior.near = PosePrior::Disk{truth.x + 1.0, truth.y, 2.0};
-    const LocalizationResult free = localizer.localize(scan);
-    const LocalizationResult bound = localizer.localize(scan, prior);
+    const LocalizationResult free = localizer.localize(scan, {}, withRegions());
+    const LocalizationResult bound = localizer.localize(scan, prior, withRegions());
     ASSERT_TRUE(free.certificate && bound.certificate);
     EXPECT_LT(bound.statistics.evaluated, free.statistics.evaluated);
-    const BruteForceCost cost(map, scan, params);
+    const BruteForceCost cost(map, scan);
     Adversary adversary(map, bound, cost, random);
     for (int k = 0; k < 400; ++k) {
       std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -282,45 +286,101 @@ TEST(Certificate, HoldsUnderAPrior) {
 TEST(Certificate, OfAPriorThatAllowsNoCellEnds) {
   // A block of the top level meets the disk, but none of its leaves: there is a pillar.
   const PolygonMap map = mapOf(rectangle(0, 0, 1.9, 1.9), {rectangle(0.5, 0.5, 1.4, 1.4)});
-  const GlobalLocalizer localizer(map, withRegions());
+  const GlobalLocalizer localizer(map);
   PosePrior prior;
   prior.near = PosePrior::Disk{0.95, 0.95, 0.1};
   const LocalizationResult result =
-      localizer.localize(simulatedScan(map, {0.25, 0.25, 0.3}), prior);
+      localizer.localize(simulatedScan(map, {0.25, 0.25, 0.3}), prior, withRegions());
   EXPECT_EQ(result.status, LocalizationStatus::no_match);
   ASSERT_TRUE(result.certificate);
   EXPECT_TRUE(result.certificate->is_complete);
   EXPECT_TRUE(result.regions.empty());
 }
 
-TEST(Certificate, ABudgetTooSmallForAnythingStillGivesAnAnswer) {
-  GlobalLocalizerParams params = withRegions();
-  params.certified.max_nodes = 1;
+TEST(Certificate, OfABudgetTooSmallForAnythingThereIsNone) {
   const PolygonMap map = asymmetricRoom();
-  const GlobalLocalizer localizer(map, params);
+  const GlobalLocalizer localizer(map, limitedTo(1));
   const TPose2D truth{1.5, 2.1, 0.3};
-  const LocalizationResult result = localizer.localize(simulatedScan(map, truth));
-  ASSERT_TRUE(result.certificate);
-  EXPECT_FALSE(result.certificate->is_complete);
-  EXPECT_EQ(result.certificate->cost, 0.0);
+  const LocalizationResult result =
+      localizer.localize(simulatedScan(map, truth), {}, withRegions());
+  EXPECT_FALSE(result.certificate);  // nothing is proven
+  EXPECT_TRUE(result.regions.empty());
   EXPECT_EQ(result.status, LocalizationStatus::ambiguous);  // others may be as good
   ASSERT_FALSE(result.hypotheses.empty());
   EXPECT_LT(distanceBetween(result.hypotheses.front().pose_map_robot, truth), 0.02);
 }
 
+TEST(Certificate, AtAnyBudgetHoldsThePoseOfAScanWithoutNoise) {
+  // Its cost is 0, so that whatever is certified must leave room for it.
+  const PolygonMap map = floorPlan(largeFloor(), 5);
+  const MapIndex::Ptr index = MapIndex::build(map);
+  std::mt19937 random(10);
+  std::size_t certified = 0;
+  for (const TPoint2D& p : randomFreePoints(map, 8, random)) {
+    const TPose2D truth{p.x, p.y, 0.7};
+    ScanOptions clutter;
+    clutter.short_share = 0.0;
+    const RangeScan scan = simulatedScan(map, truth, clutter);
+    const std::size_t all = GlobalLocalizer(index).localize(scan).statistics.evaluated;
+    for (const std::size_t nodes :
+         {std::size_t{1}, all / 10, all / 2, all - 1000, all - 200, all - 20, all - 1}) {
+      const auto result =
+          GlobalLocalizer(index, limitedTo(nodes)).localize(scan, {}, withRegions());
+      if (!result.certificate) continue;
+      ++certified;
+      EXPECT_TRUE(std::any_of(result.regions.begin(), result.regions.end(),
+                              [&](const PoseRegion& region) { return holds(region, truth); }))
+          << nodes << " nodes";
+    }
+  }
+  EXPECT_GT(certified, 3U);
+}
+
+TEST(Certificate, HoldsForBeamsThatUseUpTheAngularSlack) {
+  // Every third beam is as far off the phase as beams that are searched with may be, to the side on
+  // which it is not in its bin; the robot's heading is where a bin begins.
+  std::mt19937 random(17);
+  for (std::uint32_t seed = 0; seed < 4; ++seed) {
+    const PolygonMap map = floorPlan(randomParams(random), seed);
+    const BruteForceRays rays(map);
+    const GlobalLocalizer localizer(map);
+    for (const TPoint2D& p : randomFreePoints(map, 15, random)) {
+      const double heading = static_cast<double>(random() % kBandBins) * kBandBinWidth;
+      std::vector<Beam> beams;
+      for (std::size_t b = 0; b < kBandBins; ++b) {
+        const double off = b % 3 == 0 ? -0.99 * kInPhase : 0.0;
+        const double bearing = (static_cast<double>(b) + off) * kBandBinWidth;
+        const RayHit hit = rays.cast(p, heading + bearing);
+        if (std::isfinite(hit.wall) && !(hit.open < hit.wall)) {
+          beams.push_back({bearing, hit.wall, BeamKind::hit});
+        }
+      }
+      if (beams.size() < 60) continue;
+      const RangeScan scan(beams);
+      ASSERT_TRUE(BandQuery(scan).is_in_phase);
+      ASSERT_EQ(BandQuery(scan).beams.size(), beams.size());
+      const auto result = localizer.localize(scan, {}, withRegions());
+      ASSERT_TRUE(result.certificate);
+      EXPECT_TRUE(std::any_of(result.regions.begin(), result.regions.end(),
+                              [&](const PoseRegion& region) {
+                                return holds(region, {p.x, p.y, heading});
+                              }))
+          << p.x << " " << p.y << " " << heading;
+    }
+  }
+}
+
 TEST(Certificate, HoldsBeyondTheGreatestRange) {
   // 600 m long: ranges beyond 127 m are told from shorter ones alone.
   const PolygonMap map = mapOf(rectangle(0, 0, 600, 8));
-  GlobalLocalizerParams params = withRegions();
-  params.leaf_size = 0.5;
-  const GlobalLocalizer localizer(map, params);
+  const GlobalLocalizer localizer(MapIndex::build(map, {0.5, 1}));
   const TPose2D truth{3.1, 4.2, 0.0};
   const RangeScan scan = simulatedScan(map, truth, [] {
     ScanOptions options;
     options.max_range = 1000.0;
     return options;
   }());
-  const LocalizationResult result = localizer.localize(scan);
+  const LocalizationResult result = localizer.localize(scan, {}, withRegions());
   ASSERT_TRUE(result.certificate);
   EXPECT_TRUE(std::any_of(result.regions.begin(), result.regions.end(),
                           [&](const PoseRegion& region) { return holds(region, truth); }));
@@ -331,19 +391,17 @@ TEST(Certificate, SaysHowFarABudgetReached) {
   std::mt19937 random(9);
   const TPoint2D place = randomFreePoints(map, 1, random).front();
   const RangeScan scan = simulatedScan(map, {place.x, place.y, 0.3}, kindsOfScans(1)[1]);
-  GlobalLocalizerParams params = withRegions();
-  const GlobalLocalizer whole(map, params);
-  const LocalizationResult complete = whole.localize(scan);
+  const MapIndex::Ptr index = MapIndex::build(map);
+  const LocalizationResult complete = GlobalLocalizer(index).localize(scan);
   ASSERT_TRUE(complete.certificate && complete.certificate->is_complete);
 
-  params.certified.max_nodes = complete.statistics.evaluated / 2;
-  const GlobalLocalizer limited(map, params);
-  const LocalizationResult cut = limited.localize(scan);
+  const GlobalLocalizer limited(index, limitedTo(complete.statistics.evaluated / 2));
+  const LocalizationResult cut = limited.localize(scan, {}, withRegions());
   ASSERT_TRUE(cut.certificate);
   EXPECT_FALSE(cut.certificate->is_complete);
   EXPECT_LT(cut.certificate->cost, complete.certificate->cost);
   EXPECT_LT(cut.statistics.evaluated, complete.statistics.evaluated);
-  const BruteForceCost cost(map, scan, params);
+  const BruteForceCost cost(map, scan);
   Adversary adversary(map, cut, cost, random);
   adversary.search(200, 6, 60);
   EXPECT_EQ(adversary.tally.outside, 0U) << adversary.tally.worst;

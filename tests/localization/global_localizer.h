@@ -12,12 +12,6 @@
 /// What the tests of the localizer have in common.
 namespace mrpt_polyloc::test {
 
-inline GlobalLocalizerParams oneThread() {
-  GlobalLocalizerParams params;
-  params.threads = 1;
-  return params;
-}
-
 /// What every answer keeps.
 inline void expectConsistent(const LocalizationResult& result, std::size_t most = 20) {
   const bool answered =
@@ -43,7 +37,7 @@ inline void expectConsistent(const LocalizationResult& result, std::size_t most 
 /// A localizer of the asymmetric room, built once for all tests of a program.
 class InAsymmetricRoom : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() { localizer_ = new GlobalLocalizer(asymmetricRoom(), oneThread()); }
+  static void SetUpTestSuite() { localizer_ = new GlobalLocalizer(asymmetricRoom()); }
   static void TearDownTestSuite() {
     delete localizer_;
     localizer_ = nullptr;

@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/localization/exact/LimitedRangeLocalizer.h>
 #include <mrpt_polyloc/visibility/visibility_polygon.h>
 
@@ -16,12 +17,6 @@ namespace {
 using mrpt::math::TPose2D;
 using Piece = LimitedPolygon::Piece;
 
-double cross(const TPoint2D& a, const TPoint2D& b) {
-  return a.x * b.y - a.y * b.x;
-}
-double dot(const TPoint2D& a, const TPoint2D& b) {
-  return a.x * b.x + a.y * b.y;
-}
 double angleOf(const TPoint2D& d) {
   return std::atan2(d.y, d.x);
 }

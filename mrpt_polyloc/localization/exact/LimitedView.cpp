@@ -1,6 +1,7 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/base/params_check.h>
+#include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/localization/exact/LimitedView.h>
 
 #include <algorithm>
@@ -10,12 +11,6 @@
 namespace mrpt_polyloc {
 namespace {
 
-double cross(const TPoint2D& a, const TPoint2D& b) {
-  return a.x * b.y - a.y * b.x;
-}
-double dot(const TPoint2D& a, const TPoint2D& b) {
-  return a.x * b.x + a.y * b.y;
-}
 std::string toText(const TPoint2D& p) {
   return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
 }

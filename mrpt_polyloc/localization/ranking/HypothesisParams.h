@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/localization/ranking/Calibration.h>
+#include <mrpt_polyloc/localization/scan/BeamEvidenceParams.h>
 
 namespace mrpt_polyloc {
 
@@ -10,6 +11,7 @@ struct HypothesisParams {
   /// A difference of the mean evidence counts in units of its standard error, or of this if that is
   /// less [m]: the map itself is not better.
   double indifference = 0.004;
+  BeamEvidenceParams evidence;  ///< by which hypotheses are ranked and weighed
   Calibration calibration;
 
   /// \throws InvalidParamsError naming the bad field.

@@ -17,7 +17,7 @@ std::vector<Hypothesis> cutShort(std::vector<Hypothesis> hypotheses, std::size_t
 
 }  // namespace
 
-Assessment assess(const std::vector<RankedPose>& poses, const RangeScan& scan, const ScanCost& cost,
+Assessment assess(const std::vector<ScoredPose>& poses, const RangeScan& scan, const ScanCost& cost,
                   const HypothesisParams& params, std::size_t max_hypotheses) {
   Assessment result;
   if (poses.empty()) return result;

@@ -18,7 +18,7 @@ namespace mrpt_polyloc {
 /// \param poses sorted by cost, merged; all that may be rivals, whether they are returned or not
 /// \param cost of the scan, as the poses were ranked by
 /// \param max_hypotheses at most so many are returned; their weights sum to 1
-Assessment assess(const std::vector<RankedPose>& poses, const RangeScan& scan, const ScanCost& cost,
+Assessment assess(const std::vector<ScoredPose>& poses, const RangeScan& scan, const ScanCost& cost,
                   const HypothesisParams& params, std::size_t max_hypotheses);
 
 }  // namespace mrpt_polyloc

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <mrpt_polyloc/base/Budget.h>
 #include <mrpt_polyloc/localization/ranking/Assessment.h>
 #include <mrpt_polyloc/localization/ranking/HypothesisParams.h>
-#include <mrpt_polyloc/localization/scan/PosePrior.h>
+#include <mrpt_polyloc/localization/scan/AllowedPoses.h>
 #include <mrpt_polyloc/localization/scan/PoseRefinerParams.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 #include <mrpt_polyloc/localization/scan/RobustCostParams.h>
@@ -23,12 +24,14 @@ struct RankingParams {
   HypothesisParams hypotheses;
 };
 
-/// Candidates refined with some of the beams, the best of them with all, of these what the prior
-/// allows, ranked by their robust cost over all beams and merged where they are nearly one.
+/// Candidates refined with some of the beams, the best of them with all, within what is allowed;
+/// merged where they are nearly one, compared by their robust cost over all beams, and ranked by
+/// the evidence.
 /// \param candidates poses of the beam frame in the map, any order
+/// \param budget ends the refinement early: the rest stays as it came
 /// \returns status unique, ambiguous or no_match, and the hypotheses
 Assessment rankCandidates(const std::vector<mrpt::math::TPose2D>& candidates, const RangeScan& scan,
-                          const PosePrior& prior, const RangePredictor& predictor,
-                          const RankingParams& params);
+                          const AllowedPoses& allowed, const RangePredictor& predictor,
+                          const RankingParams& params = {}, const Budget& budget = Budget());
 
 }  // namespace mrpt_polyloc

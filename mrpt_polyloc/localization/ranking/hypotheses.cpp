@@ -37,16 +37,17 @@ void HypothesisParams::check() const {
   requirePositive("merge_distance", merge_distance);
   requirePositive("merge_angle", merge_angle);
   requirePositive("indifference", indifference);
+  evidence.check();
   calibration.check();
 }
 
-std::vector<RankedPose> mergeNearPoses(std::vector<RankedPose> poses,
+std::vector<ScoredPose> mergeNearPoses(std::vector<ScoredPose> poses,
                                        const HypothesisParams& params) {
   std::stable_sort(poses.begin(), poses.end(),
-                   [](const RankedPose& a, const RankedPose& b) { return a.cost < b.cost; });
-  std::vector<RankedPose> merged;
-  for (const RankedPose& pose : poses) {
-    const bool is_new = std::none_of(merged.begin(), merged.end(), [&](const RankedPose& other) {
+                   [](const ScoredPose& a, const ScoredPose& b) { return a.cost < b.cost; });
+  std::vector<ScoredPose> merged;
+  for (const ScoredPose& pose : poses) {
+    const bool is_new = std::none_of(merged.begin(), merged.end(), [&](const ScoredPose& other) {
       return isNear(pose.refined.pose_map_beams, other.refined.pose_map_beams, params);
     });
     if (is_new) merged.push_back(pose);
@@ -54,16 +55,16 @@ std::vector<RankedPose> mergeNearPoses(std::vector<RankedPose> poses,
   return merged;
 }
 
-std::vector<Hypothesis> toHypotheses(const std::vector<RankedPose>& poses, const RangeScan& scan,
+std::vector<Hypothesis> toHypotheses(const std::vector<ScoredPose>& poses, const RangeScan& scan,
                                      const ScanCost& cost, const HypothesisParams& params,
                                      std::vector<std::size_t>* order) {
   if (poses.empty()) return {};
   std::vector<std::vector<float>> evidence;
   std::vector<double> means;
   PredictedRanges predicted;
-  for (const RankedPose& pose : poses) {
+  for (const ScoredPose& pose : poses) {
     cost.predict(pose.refined.pose_map_beams, predicted);
-    evidence.push_back(beamEvidence(cost.beams(), predicted));
+    evidence.push_back(beamEvidence(cost.beams(), predicted, params.evidence));
     means.push_back(meanOf(evidence.back()));
   }
   const std::size_t best =

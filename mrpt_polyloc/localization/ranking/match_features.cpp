@@ -22,7 +22,7 @@ bool isExplained(float range, float wall, float open) {
 /// pose where there is none, as a prior may have left out all others.
 constexpr double kChanceCost = 0.2;  // [m]
 
-double leadOf(const std::vector<RankedPose>& poses) {
+double leadOf(const std::vector<ScoredPose>& poses) {
   const double second = poses.size() < 2 ? kChanceCost : poses[1].cost;
   const double lead = std::log((second + kCostFloor) / (poses[0].cost + kCostFloor));
   return std::clamp(lead, 0.0, kMostLead);
@@ -30,7 +30,7 @@ double leadOf(const std::vector<RankedPose>& poses) {
 
 }  // namespace
 
-MatchFeatures matchFeatures(const std::vector<RankedPose>& poses, const RankedPose& first,
+MatchFeatures matchFeatures(const std::vector<ScoredPose>& poses, const ScoredPose& first,
                             const ScanCost& cost, const BeamSectors& sectors) {
   PredictedRanges predicted;
   cost.predict(first.refined.pose_map_beams, predicted);

@@ -60,6 +60,14 @@ PoseRefiner::PoseRefiner(const RangePredictor& predictor, const RangeScan& scan,
 }
 
 RefinedPose PoseRefiner::refine(const mrpt::math::TPose2D& start) const {
+  return refine(start, params_.max_iterations);
+}
+
+RefinedPose PoseRefiner::at(const mrpt::math::TPose2D& pose_map_beams) const {
+  return refine(pose_map_beams, 0);
+}
+
+RefinedPose PoseRefiner::refine(const mrpt::math::TPose2D& start, int max_iterations) const {
   mrpt::math::TPose2D pose = start;
   PredictedHits predicted;
   const double inverse_scale = 1.0 / params_.residual_scale;
@@ -92,7 +100,7 @@ RefinedPose PoseRefiner::refine(const mrpt::math::TPose2D& start) const {
   };
 
   NormalEquations equations = linearize();
-  for (int iteration = 0; iteration < params_.max_iterations && equations.beams >= 3; ++iteration) {
+  for (int iteration = 0; iteration < max_iterations && equations.beams >= 3; ++iteration) {
     // A little damping: along a corridor nothing holds the pose.
     const Eigen::Matrix3d damped = equations.matrix + 1e-3 * static_cast<double>(equations.beams) *
                                                           Eigen::Matrix3d::Identity();

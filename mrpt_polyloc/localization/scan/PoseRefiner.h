@@ -30,8 +30,12 @@ class PoseRefiner {
               const PoseRefinerParams& params = {}, std::size_t max_beams = 0);
 
   RefinedPose refine(const mrpt::math::TPose2D& pose_map_beams) const;
+  /// A pose as it is, with what the scan says there.
+  RefinedPose at(const mrpt::math::TPose2D& pose_map_beams) const;
 
  private:
+  RefinedPose refine(const mrpt::math::TPose2D& start, int max_iterations) const;
+
   const RangePredictor* predictor_;
   PoseRefinerParams params_;
   std::vector<float> ranges_;

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <cmath>
@@ -8,6 +9,9 @@ namespace mrpt_polyloc {
 RangeScan::RangeScan(std::vector<Beam> beams, const mrpt::math::TPoint2D& sensor, double stamp,
                      std::string label)
     : beams_(std::move(beams)), sensor_(sensor), stamp_(stamp), label_(std::move(label)) {
+  if (!std::isfinite(sensor.x) || !std::isfinite(sensor.y)) {
+    throw InvalidParamsError("sensor: its position is not finite");
+  }
   for (Beam& beam : beams_) {
     // Ranges are compared in single precision: what is infinite there is no range.
     const bool usable = std::isfinite(beam.bearing) &&

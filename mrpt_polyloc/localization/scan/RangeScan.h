@@ -32,6 +32,7 @@ class RangeScan {
   /// \param label of the sensor, to tell several lasers apart
   /// A hit or no_return whose bearing or range is not finite (the range in single precision), or
   /// whose range is not positive, becomes invalid: a defined result for what sensors send.
+  /// \throws InvalidParamsError if the sensor's position is not finite: no pose could be told
   RangeScan(std::vector<Beam> beams, const mrpt::math::TPoint2D& sensor = {0, 0},
             double stamp = 0.0, std::string label = {});
 

@@ -1,33 +1,30 @@
+#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/localization/scan/RobustCost.h>
 #include <mrpt_polyloc/localization/scan/beam_evidence.h>
 
 #include <algorithm>
 
 namespace mrpt_polyloc {
-namespace {
 
-constexpr double kTauShort = 0.5;         // [m]
-constexpr float kHiddenCost = 0.05F;      // per metre
-constexpr float kMostHidden = 5.0F;       // [m]
-constexpr float kHiddenFrom = kTauShort;  // [m] before the wall
-
-RobustCost evidenceCost() {
-  RobustCostParams params;
-  params.tau_short = kTauShort;
-  return RobustCost(params);
+void BeamEvidenceParams::check() const {
+  cost.check();
+  requireInRange("hidden_cost", hidden_cost, 0.0, 10.0);
+  requireInRange("most_hidden", most_hidden, 0.0, 1e3);
 }
 
-}  // namespace
-
-std::vector<float> beamEvidence(const std::vector<Beam>& beams, const PredictedRanges& predicted) {
-  const RobustCost cost = evidenceCost();
+std::vector<float> beamEvidence(const std::vector<Beam>& beams, const PredictedRanges& predicted,
+                                const BeamEvidenceParams& params) {
+  const RobustCost cost(params.cost);
+  const auto hidden_cost = static_cast<float>(params.hidden_cost);
+  const auto most_hidden = static_cast<float>(params.most_hidden);
+  const auto hidden_from = static_cast<float>(params.cost.tau_short);
   std::vector<float> evidence(beams.size());
   for (std::size_t i = 0; i < beams.size(); ++i) {
     const float wall = predicted.wall[i], open = predicted.open[i];
     evidence[i] = cost(beams[i], wall, open);
     if (beams[i].kind != BeamKind::hit) continue;
-    const float hidden = std::min(wall, open) - static_cast<float>(beams[i].range) - kHiddenFrom;
-    evidence[i] += kHiddenCost * std::clamp(hidden, 0.0F, kMostHidden);
+    const float hidden = std::min(wall, open) - static_cast<float>(beams[i].range) - hidden_from;
+    evidence[i] += hidden_cost * std::clamp(hidden, 0.0F, most_hidden);
   }
   return evidence;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/localization/scan/BeamEvidenceParams.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 
@@ -9,10 +10,11 @@ namespace mrpt_polyloc {
 
 /// What speaks against a pose, beam by beam [m]: RobustCost with two changes that rank the poses of
 /// a finished search better than the cost it was searched by. Beams that end before the map's wall
-/// cost up to 0.5 m, and beyond that 0.05 m for each metre of predicted view that they do not
-/// reach, for five metres at most: a large part of a room is rarely hidden.
+/// may cost a little more, and beyond that something for each metre of predicted view that they do
+/// not reach: a large part of a room is rarely hidden.
 /// Measured on the best 50 of the seven sets of evaluation data: see doc/localization.md.
 /// \param beams hits and no-returns \param predicted for these beams, in their order
-std::vector<float> beamEvidence(const std::vector<Beam>& beams, const PredictedRanges& predicted);
+std::vector<float> beamEvidence(const std::vector<Beam>& beams, const PredictedRanges& predicted,
+                                const BeamEvidenceParams& params = {});
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/localization/scan/ScanCost.h>
 #include <mrpt_polyloc/localization/search/BandQuery.h>
+#include <mrpt_polyloc/localization/search/angular_slack.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +10,6 @@ namespace mrpt_polyloc {
 namespace {
 
 static_assert(QuantizedRange::kReach == ScanCost::kReach, "one metric for bounds and poses");
-
-/// By so much of a bin beams may be off the phase: rounding, within the bands' angular slack.
-constexpr double kInPhase = 4e-4;
 
 double placeOf(const Beam& beam) {
   return wrapToTwoPi(beam.bearing) / kBandBinWidth;

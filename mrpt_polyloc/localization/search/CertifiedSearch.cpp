@@ -1,4 +1,3 @@
-#include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/localization/search/CertifiedSearch.h>
@@ -7,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <unordered_map>
@@ -93,20 +93,6 @@ class SeedPoses {
   float least_ = std::numeric_limits<float>::infinity();
 };
 
-/// Tells when the nodes or the time are used up.
-class Budget {
- public:
-  explicit Budget(const CertifiedSearchParams& params) : params_(params) {}
-  bool isSpent(std::size_t nodes) const {
-    if (params_.max_nodes > 0 && nodes >= params_.max_nodes) return true;
-    return params_.time_budget_ms > 0.0 && 1e3 * watch_.seconds() >= params_.time_budget_ms;
-  }
-
- private:
-  const CertifiedSearchParams& params_;
-  Stopwatch watch_;
-};
-
 /// The next limit, while it is not known how good the best is.
 unsigned grown(unsigned limit) {
   constexpr unsigned kGrowth = 4, kMost = std::numeric_limits<unsigned>::max();
@@ -126,7 +112,7 @@ class LeastRefined {
     for (const PoseCandidate& candidate : candidates) {
       const mrpt::math::TPose2D& pose = candidate.pose_map_beams;
       if (!seen_.emplace(pose.x, pose.y, pose.phi).second) continue;
-      least_ = std::min(least_, scorer_.refinedCost(pose));
+      least_ = std::min(least_, scorer_.costBelow(pose));
     }
   }
 
@@ -144,17 +130,19 @@ void CertifiedSearchParams::check() const {
   requireInRange("seed_share", seed_share, 0.0, 100.0);
   requireInRange("seed_margin", seed_margin, 0.0, 100.0);
   requireInRange("max_candidates", static_cast<double>(max_candidates), 1.0, 1e6);
-  requireNotNegative("time_budget_ms", time_budget_ms);
 }
 
 CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
                                  const PosePrior& prior, const mrpt::math::TPoint2D& sensor,
-                                 const PoseScorer& scorer, const CertifiedSearchParams& params) {
+                                 const PoseScorer& scorer, const Budget& budget,
+                                 const CertifiedSearchParams& params) {
   CertifiedSearchResult result;
   if (query.beams.empty()) return result;
-  const Budget budget(params);
   thread_local TreeDescent::Workspace workspace;
   TreeDescent descent(tree, query, prior, sensor, workspace);
+  const auto is_spent = [&] {
+    return budget.isSpent() || (params.max_nodes > 0 && descent.evaluated() >= params.max_nodes);
+  };
 
   // The first limits are below what noise alone costs: few leaves are within them, the right one
   // mostly among them, as bounds are well below costs.
@@ -162,12 +150,13 @@ CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
   constexpr std::size_t kGreedyWidth = 64;
   SeedPoses seeds(tree, query, params);
   LeastRefined refined(scorer);
-  unsigned certified = 0, limit = query.units(kFirstLimit);
+  std::optional<unsigned> certified;
+  unsigned limit = query.units(kFirstLimit);
   for (;;) {
-    result.is_complete = descent.expandUpTo(
-        limit, [&] { return budget.isSpent(descent.evaluated()); }, seeds.leaves);
-    if (!result.is_complete && seeds.leaves.empty())
+    result.is_complete = descent.expandUpTo(limit, is_spent, seeds.leaves);
+    if (!result.is_complete && seeds.leaves.empty()) {
       descent.greedyDescent(kGreedyWidth, seeds.leaves);
+    }
     seeds.evaluate();
     if (!result.is_complete) break;
     refined.take(seeds.best(kRefined));
@@ -184,10 +173,11 @@ CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
   }
 
   result.candidates = seeds.best(params.max_candidates);
-  result.certified_cost = query.meters(certified);
   result.evaluated = descent.evaluated();
+  if (!certified) return result;  // not even the first limit was reached: nothing is proven
+  result.certified_cost = query.meters(*certified);
   for (const Node& leaf : seeds.leaves) {
-    if (leaf.bound > certified) continue;
+    if (leaf.bound > *certified) continue;
     result.regions.push_back({leaf.index, static_cast<std::uint16_t>(leaf.heading),
                               static_cast<float>(query.meters(leaf.bound))});
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/Budget.h>
 #include <mrpt_polyloc/localization/scan/PosePrior.h>
 #include <mrpt_polyloc/localization/search/BandQuery.h>
 #include <mrpt_polyloc/localization/search/CertifiedSearchParams.h>
@@ -11,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace mrpt_polyloc {
@@ -27,7 +29,8 @@ struct CertifiedSearchResult {
   /// Every pose that the prior allows whose search cost is at most `certified_cost` lies in one of
   /// these.
   std::vector<RemainingLeaf> regions;
-  double certified_cost = 0.0;  ///< [m]
+  /// [m]; none if a budget ended the search before anything was proven, or no beam took part.
+  std::optional<double> certified_cost;
   /// Whether certified_cost reaches the least search cost found plus the margin; false where a
   /// budget ended the search.
   bool is_complete = true;
@@ -42,7 +45,7 @@ struct CertifiedSearchResult {
 /// against
 CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
                                  const PosePrior& prior, const mrpt::math::TPoint2D& sensor,
-                                 const PoseScorer& scorer,
+                                 const PoseScorer& scorer, const Budget& budget = Budget(),
                                  const CertifiedSearchParams& params = {});
 
 }  // namespace mrpt_polyloc

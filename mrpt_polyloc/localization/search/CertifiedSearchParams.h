@@ -17,7 +17,6 @@ struct CertifiedSearchParams {
   /// Nodes evaluated at most before the search stops and says up to which cost it is certified; 0:
   /// no limit.
   std::size_t max_nodes = 0;
-  double time_budget_ms = 0.0;  ///< the same for wall time [ms]; results then depend on the machine
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;

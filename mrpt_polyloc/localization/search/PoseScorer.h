@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/localization/scan/AllowedPoses.h>
+#include <mrpt_polyloc/localization/scan/PoseDescent.h>
 #include <mrpt_polyloc/localization/scan/PoseRefiner.h>
 #include <mrpt_polyloc/localization/scan/ScanCost.h>
 #include <mrpt_polyloc/localization/search/BandQuery.h>
@@ -13,20 +15,24 @@ namespace mrpt_polyloc {
 /// bounds only hint at.
 class PoseScorer {
  public:
-  /// Keeps a reference to the predictor. \param sensor the beams' origin in the robot frame
+  /// Keeps references to predictor and allowed poses. \param sensor the beams' origin in the robot
+  /// frame
   PoseScorer(const RangePredictor& predictor, const BandQuery& query,
-             const mrpt::math::TPoint2D& sensor, const RobustCostParams& cost,
-             const PoseRefinerParams& refinement);
+             const mrpt::math::TPoint2D& sensor, const AllowedPoses& allowed,
+             const RobustCostParams& cost, const PoseRefinerParams& refinement);
+  PoseScorer(const PoseScorer&) = delete;
+  PoseScorer& operator=(const PoseScorer&) = delete;
 
   /// Of the pose itself [m].
   double costAt(const mrpt::math::TPose2D& pose_map_beams) const;
-  /// The less of the pose's cost and of the one that refinement leads to [m].
-  double refinedCost(const mrpt::math::TPose2D& pose_map_beams) const;
+  /// Of the pose that a descent from there ends in [m]; infinity if it meets none that is allowed.
+  double costBelow(const mrpt::math::TPose2D& pose_map_beams) const;
 
  private:
   SearchMetric metric_;
   ScanCost cost_;
   PoseRefiner refiner_;
+  PoseDescent descent_;
 };
 
 }  // namespace mrpt_polyloc

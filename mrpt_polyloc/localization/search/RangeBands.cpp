@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/base/cpu_dispatch.h>
 #include <mrpt_polyloc/localization/search/RangeBands.h>
+#include <mrpt_polyloc/localization/search/angular_slack.h>
 #include <mrpt_polyloc/visibility/fast_atan2.h>
 
 #include <algorithm>
@@ -18,10 +19,8 @@ constexpr int kFirstTurn = kBins;  ///< where bin 0 of a chain's first vertex is
 constexpr int kBlock = 8;
 constexpr std::size_t kVertexBlock = 16;
 constexpr float kUnbounded = 1e9F;  ///< an inverse range that bounds nothing [1/m]
-constexpr float kGreatest = 1e4F;   ///< inverse of the least range that is told from 0 [1/m]
-/// Bins are taken to be wider by this at both ends [rad]: for the rounding of directions, and for
-/// beams that are a little off a scan's phase.
-constexpr float kAngularSlack = 2e-5F;
+constexpr auto kSlackF = static_cast<float>(kAngularSlack);
+constexpr float kGreatest = 1e4F;  ///< inverse of the least range that is told from 0 [1/m]
 
 using Depths = std::array<float, kUnwrapped + kBlock>;
 
@@ -244,15 +243,15 @@ void RangeBandFinder::Workspace::followStretch(std::size_t& i, std::size_t count
   // Whole turns are added to the bearings, so that rounding does not add up along a chain.
   float turns = (bearing[i] < 0.0F ? kTurn : 0.0F) + kStart;
   float angle = bearing[i] + turns;
-  int reset_from = binOf(angle + after[i] + kAngularSlack) + 1;
+  int reset_from = binOf(angle + after[i] + kSlackF) + 1;
   int past_to = reset_from;  // bins below are behind the chain, or never were before it
   int touched_first = kUnwrapped, touched_last = -1;
   for (; i + 1 < count; ++i) {
     const float turn = bearing[i + 1] - bearing[i];
     const float wrap = turn < -kPiF ? kTurn : turn >= kPiF ? -kTurn : 0.0F;
     const float next = bearing[i + 1] + (turns + wrap);
-    const float low = std::min(angle + before[i], next + before[i + 1]) - kAngularSlack;
-    const float high = std::max(angle + after[i], next + after[i + 1]) + kAngularSlack;
+    const float low = std::min(angle + before[i], next + before[i + 1]) - kSlackF;
+    const float high = std::max(angle + after[i], next + after[i + 1]) + kSlackF;
     const int first = binOf(low), last = binOf(high);
     if (first < 0 || last + kBlock >= kUnwrapped) break;
     EdgeBounds bounds;
@@ -265,14 +264,14 @@ void RangeBandFinder::Workspace::followStretch(std::size_t& i, std::size_t count
     angle = next;
     turns += wrap;
     // The chain is past a bin if it is from all of the leaf: then the stretch blocked it.
-    const int past_end = binOf(angle + before[i + 1] - kAngularSlack);
+    const int past_end = binOf(angle + before[i + 1] - kSlackF);
     for (int b = past_to; b < past_end; ++b) {
       const auto k = static_cast<std::size_t>(b);
       far[k] = std::max(far[k], passing[k] < kUnbounded ? passing[k] : 0.0F);
     }
     past_to = std::max(past_to, past_end);
     // And before a bin again, or still: a new stretch begins here.
-    reset_from = binOf(angle + after[i + 1] + kAngularSlack) + 1;
+    reset_from = binOf(angle + after[i + 1] + kSlackF) + 1;
     for (int b = std::max(reset_from, 0); b <= touched_last; ++b) {
       passing[static_cast<std::size_t>(b)] = kUnbounded;
     }

@@ -80,18 +80,17 @@ void SearchTreeParams::check() const {
 }
 
 SearchTree::SearchTree(const Triangulation& triangulation, const RangePredictor& predictor,
-                       const SearchTreeParams& params) {
+                       const SearchTreeParams& params, BuildProgress* progress) {
   params.check();
   data_.leaf_size = params.leaf_size;
   const BoundingBox& box = triangulation.box();
-  constexpr double kMostSquares = 1 << 30;
-  if ((box.max.x - box.min.x) * (box.max.y - box.min.y) >
-      kMostSquares * params.leaf_size * params.leaf_size) {
+  constexpr double kMostSquares = 1 << 30;  // on a side: they are numbered by 32 bits
+  if (std::max(box.max.x - box.min.x, box.max.y - box.min.y) > kMostSquares * params.leaf_size) {
     throw InvalidParamsError("leaf_size: " + std::to_string(params.leaf_size) +
                              " gives too many leaves for a map of this size");
   }
   layOut(predictor.index(), takeLeaves(triangulation, params.threads));
-  fill(predictor, params.threads);
+  fill(predictor, params.threads, progress);
 }
 
 SearchTree::SearchTree(Data data) : data_(std::move(data)) {
@@ -215,7 +214,7 @@ void SearchTree::storeView(const PredictedRanges& ranges, std::size_t leaf) {
   repeat(wall);
 }
 
-void SearchTree::fill(const RangePredictor& predictor, int threads) {
+void SearchTree::fill(const RangePredictor& predictor, int threads, BuildProgress* progress) {
   std::vector<double> bearings(kBandBins);
   for (std::size_t b = 0; b < kBandBins; ++b) bearings[b] = static_cast<double>(b) * kBandBinWidth;
   const BeamPattern pattern(bearings);
@@ -252,7 +251,11 @@ void SearchTree::fill(const RangePredictor& predictor, int threads) {
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
     const tbb::blocked_range<std::size_t> all(0, data_.levels[kLevels - 1].nodes.size(), 4);
-    tbb::parallel_for(all, [&](const auto& range) { build(range.begin(), range.end()); });
+    if (progress != nullptr) progress->begin(all.end());
+    tbb::parallel_for(all, [&](const auto& range) {
+      build(range.begin(), range.end());
+      if (progress != nullptr) progress->take(range.size());
+    });
   });
 }
 

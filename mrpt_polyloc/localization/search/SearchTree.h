@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/BuildProgress.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/search/NodeBands.h>
 #include <mrpt_polyloc/localization/search/RangeBands.h>
@@ -76,8 +77,9 @@ class SearchTree {
   };
 
   /// \param predictor its index over squares of twice the leaf size
+  /// \throws InvalidParamsError, CancelledError
   SearchTree(const Triangulation& triangulation, const RangePredictor& predictor,
-             const SearchTreeParams& params = {});
+             const SearchTreeParams& params = {}, BuildProgress* progress = nullptr);
 
   /// \throws InvalidMapError unless all numbers in the data are in their ranges
   explicit SearchTree(Data data);
@@ -108,7 +110,7 @@ class SearchTree {
   using Squares = std::vector<std::pair<std::int32_t, std::int32_t>>;  ///< (column, row)
   Squares takeLeaves(const Triangulation& triangulation, int threads);
   void layOut(const VisibleEdgeIndex& index, Squares squares);
-  void fill(const RangePredictor& predictor, int threads);
+  void fill(const RangePredictor& predictor, int threads, BuildProgress* progress);
   void storeBands(const NodeBands& bands, std::size_t level, std::size_t node);
   void storeView(const PredictedRanges& ranges, std::size_t leaf);
 

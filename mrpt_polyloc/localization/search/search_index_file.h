@@ -4,6 +4,8 @@
 #include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
 
 #include <cstdint>
+#include <istream>
+#include <ostream>
 #include <string>
 
 namespace mrpt_polyloc {
@@ -14,14 +16,16 @@ struct SearchIndex {
   SearchTree::Data tree;
 };
 
-/// The index as the content of a file: magic, version, hash of the map, the arrays with their
-/// sizes, and a checksum over all before it. Little-endian.
-std::string serializeIndex(const VisibleEdgeIndex::Lists& edges, const SearchTree::Data& tree,
-                           std::uint64_t map_hash);
+/// Writes the index: magic, version, hash of the map, hash of the layout of its walls, the arrays
+/// with their sizes, and a checksum over all before it. Little-endian. Whether that went well the
+/// stream says.
+void writeIndex(std::ostream& out, const VisibleEdgeIndex::Lists& edges,
+                const SearchTree::Data& tree, std::uint64_t map_hash);
 
-/// \param file its name, for messages \param map_hash PolygonMap::hash()
+/// Reads it, array by array: nothing is held twice, and no more memory is taken than the stream
+/// fills. \param file its name, for messages \param map_hash PolygonMap::hash()
 /// \throws FormatError naming the file and the byte: not an index, another version, of another map,
 /// cut short, too long, or damaged
-SearchIndex parseIndex(const std::string& content, const std::string& file, std::uint64_t map_hash);
+SearchIndex readIndex(std::istream& in, const std::string& file, std::uint64_t map_hash);
 
 }  // namespace mrpt_polyloc

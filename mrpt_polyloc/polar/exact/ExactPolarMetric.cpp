@@ -1,6 +1,7 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/cpu_dispatch.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/polar/exact/ExactPolarMetric.h>
 
 #include <algorithm>
@@ -24,13 +25,6 @@ using PieceKind = PolarFunction::PieceKind;
 #else
 #define POLYLOC_INLINE inline
 #endif
-
-POLYLOC_INLINE double dot(const TPoint2D& a, const TPoint2D& b) {
-  return a.x * b.x + a.y * b.y;
-}
-POLYLOC_INLINE double cross(const TPoint2D& a, const TPoint2D& b) {
-  return a.x * b.y - a.y * b.x;
-}
 
 POLYLOC_INLINE TPoint2D rotated(const TPoint2D& v, const TPoint2D& rotation) {
   return {rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y};

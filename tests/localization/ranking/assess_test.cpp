@@ -13,7 +13,7 @@ using mrpt::math::TPose2D;
 
 class Assess : public ::testing::Test {
  protected:
-  RankedPose at(const TPose2D& pose) const {
+  ScoredPose at(const TPose2D& pose) const {
     const PoseRefiner refiner(predictor_, scan_, still());
     return {refiner.refine(pose), cost_.mean(pose)};
   }
@@ -23,7 +23,7 @@ class Assess : public ::testing::Test {
     params.max_iterations = 0;
     return params;
   }
-  Assessment assessed(const std::vector<RankedPose>& poses, const Calibration& calibration,
+  Assessment assessed(const std::vector<ScoredPose>& poses, const Calibration& calibration,
                       std::size_t max_hypotheses = 20) const {
     HypothesisParams params;
     params.calibration = calibration;
@@ -71,7 +71,7 @@ TEST_F(Assess, ANicheOfAFewBeamsIsNotSure) {
   const ScanCost cost(predictor, scan, {});
   HypothesisParams params;
   params.calibration = trusting();
-  RankedPose first{{truth, {}, 360}, cost.mean(truth)}, second{{twin, {}, 360}, cost.mean(twin)};
+  ScoredPose first{{truth, {}, 360}, cost.mean(truth)}, second{{twin, {}, 360}, cost.mean(twin)};
   first.refined.information.setIdentity();
   second.refined.information.setIdentity();
   ASSERT_GT(second.cost - first.cost, 1e-3);
@@ -124,7 +124,7 @@ TEST(MatchFeaturesOf, AHalfHiddenScanByHand) {
                         {-kPi / 2, 5.0, BeamKind::no_return}});
   const ScanCost cost(predictor, scan, {});
   const BeamSectors sectors(cost.beams());
-  RankedPose first{{{2, 2, 0}, {}, 3}, 0.08}, second{{{2, 2, 1}, {}, 3}, 0.13};
+  ScoredPose first{{{2, 2, 0}, {}, 3}, 0.08}, second{{{2, 2, 1}, {}, 3}, 0.13};
   first.refined.information.setZero();
   second.refined.information.setZero();
   const MatchFeatures features = matchFeatures({first, second}, first, cost, sectors);

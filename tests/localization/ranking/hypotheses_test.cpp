@@ -15,8 +15,8 @@ namespace {
 using mrpt::math::TPose2D;
 using ::testing::HasSubstr;
 
-RankedPose ranked(const TPose2D& pose, double cost, double information = 1000.0) {
-  RankedPose result;
+ScoredPose ranked(const TPose2D& pose, double cost, double information = 1000.0) {
+  ScoredPose result;
   result.refined.pose_map_beams = pose;
   result.refined.information.setZero();
   for (int i = 0; i < 3; ++i) result.refined.information(i, i) = information;
@@ -24,9 +24,9 @@ RankedPose ranked(const TPose2D& pose, double cost, double information = 1000.0)
   return result;
 }
 
-std::vector<double> costsOf(const std::vector<RankedPose>& poses) {
+std::vector<double> costsOf(const std::vector<ScoredPose>& poses) {
   std::vector<double> costs;
-  for (const RankedPose& pose : poses) costs.push_back(pose.cost);
+  for (const ScoredPose& pose : poses) costs.push_back(pose.cost);
   return costs;
 }
 
@@ -66,8 +66,8 @@ TEST(MergeNearPoses, OfEqualCostsTheFirstStaysFirst) {
 class InASquare : public ::testing::Test {
  protected:
   /// Ranked as the localizer would.
-  RankedPose at(const TPose2D& pose) const { return ranked(pose, cost_.mean(pose)); }
-  std::vector<Hypothesis> hypothesesOf(const std::vector<RankedPose>& poses,
+  ScoredPose at(const TPose2D& pose) const { return ranked(pose, cost_.mean(pose)); }
+  std::vector<Hypothesis> hypothesesOf(const std::vector<ScoredPose>& poses,
                                        const HypothesisParams& params = {}) const {
     return toHypotheses(poses, scan_, cost_, params);
   }

@@ -7,7 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <string>
+#include <utility>
 
 namespace mrpt_polyloc::test {
 namespace {
@@ -17,14 +19,22 @@ using ::testing::HasSubstr;
 class SearchIndexFile : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    content_ = new std::string(GlobalLocalizer(asymmetricRoom()).serializedIndex());
+    content_ = new std::string(saved(*MapIndex::build(asymmetricRoom())));
   }
   static void TearDownTestSuite() { delete content_; }
 
+  static std::string saved(const MapIndex& index) {
+    std::ostringstream out;
+    index.save(out);
+    return out.str();
+  }
+  static MapIndex::Ptr loaded(const std::string& content, PolygonMap map = asymmetricRoom()) {
+    std::istringstream in(content);
+    return MapIndex::load(in, std::move(map), "room.index");
+  }
   /// What reading a content as the room's index says; empty: nothing.
   static std::string complaint(const std::string& content) {
-    return messageOf<FormatError>(
-        [&] { GlobalLocalizer(asymmetricRoom(), content, "room.index"); });
+    return messageOf<FormatError>([&] { loaded(content); });
   }
 
   static const std::string& content() { return *content_; }
@@ -35,7 +45,7 @@ class SearchIndexFile : public ::testing::Test {
 std::string* SearchIndexFile::content_ = nullptr;
 
 TEST_F(SearchIndexFile, GivesTheSameAnswers) {
-  const GlobalLocalizer built(asymmetricRoom()), read(asymmetricRoom(), content(), "room.index");
+  const GlobalLocalizer built(asymmetricRoom()), read(loaded(content()));
   const RangeScan scan = simulatedScan(asymmetricRoom(), {1.5, 1.0, 0.4});
   const LocalizationResult a = built.localize(scan), b = read.localize(scan);
   ASSERT_EQ(a.hypotheses.size(), b.hypotheses.size());
@@ -44,7 +54,7 @@ TEST_F(SearchIndexFile, GivesTheSameAnswers) {
   }
   EXPECT_EQ(a.statistics.evaluated, b.statistics.evaluated);
   EXPECT_EQ(a.certificate->cost, b.certificate->cost);
-  EXPECT_EQ(read.serializedIndex(), content());
+  EXPECT_EQ(saved(read.index()), content());
 }
 
 TEST_F(SearchIndexFile, RefusesWhatIsNoIndex) {
@@ -60,9 +70,28 @@ TEST_F(SearchIndexFile, RefusesAnotherVersion) {
 }
 
 TEST_F(SearchIndexFile, RefusesTheIndexOfAnotherMap) {
-  EXPECT_THAT(
-      messageOf<FormatError>([&] { GlobalLocalizer(squareMap(3.0), content(), "room.index"); }),
-      HasSubstr("the index of another map"));
+  EXPECT_THAT(messageOf<FormatError>([&] { loaded(content(), squareMap(3.0)); }),
+              HasSubstr("the index of another map"));
+}
+
+TEST_F(SearchIndexFile, RefusesNumbersOfAnotherLayoutWithARightChecksum) {
+  // As another version of the triangulation might have written it: the map is the same, the
+  // vertices of its walls are numbered otherwise.
+  std::istringstream in(content());
+  SearchIndex index = readIndex(in, "room.index", asymmetricRoom().hash());
+  for (VisibleEdgeIndex::Run& run : index.edges.runs) run.first = run.first > 0 ? run.first - 1 : 0;
+  index.edges.layout ^= 1;
+  std::ostringstream out;
+  writeIndex(out, index.edges, index.tree, asymmetricRoom().hash());
+  EXPECT_THAT(complaint(out.str()), HasSubstr("laid out otherwise"));
+}
+
+TEST_F(SearchIndexFile, TakesNoMoreMemoryThanTheFileFills) {
+  std::string other = content();
+  const std::uint64_t huge = std::uint64_t{1} << 60;  // the first array's size
+  other.replace(8 + 4 + 4 + 4 * 8, sizeof(huge), reinterpret_cast<const char*>(&huge),
+                sizeof(huge));
+  EXPECT_THAT(complaint(other), HasSubstr("the file ends too early"));
 }
 
 TEST_F(SearchIndexFile, RefusesAnyCut) {

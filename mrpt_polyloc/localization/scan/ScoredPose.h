@@ -5,7 +5,7 @@
 namespace mrpt_polyloc {
 
 /// A refined pose with its cost over all beams.
-struct RankedPose {
+struct ScoredPose {
   RefinedPose refined;
   double cost = 0.0;  ///< mean [m]
 };

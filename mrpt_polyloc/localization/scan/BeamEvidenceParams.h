@@ -1,0 +1,22 @@
+#pragma once
+
+#include <mrpt_polyloc/localization/scan/RobustCostParams.h>
+
+namespace mrpt_polyloc {
+
+/// See beamEvidence().
+struct BeamEvidenceParams {
+  /// As the cost that candidates are compared by, but for beams that end before the map's wall: up
+  /// to half a metre.
+  RobustCostParams cost{0.5, RobustCostParams{}.tau_long, RobustCostParams{}.tau_open,
+                        RobustCostParams{}.tau_none, RobustCostParams{}.none_share};
+  /// Beyond cost.tau_short, each metre of predicted view that a beam does not reach costs so much
+  /// [m/m] ...
+  double hidden_cost = 0.05;
+  double most_hidden = 5.0;  ///< ... up to here [m]: a large part of a room is rarely hidden
+
+  /// \throws InvalidParamsError naming the bad field.
+  void check() const;
+};
+
+}  // namespace mrpt_polyloc
