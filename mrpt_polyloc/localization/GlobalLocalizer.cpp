@@ -25,7 +25,8 @@ std::vector<PoseRegion> regionsOf(const CertifiedSearchResult& found, const Cell
   std::vector<PoseRegion> regions;
   for (const RemainingCell& remaining : found.regions) {
     const TPoint2D* polygon = cells.polygon(remaining.cell);
-    const double first = remaining.heading, window = CellTree::kWindow[0];
+    const double first = remaining.heading;
+    const auto window = static_cast<double>(CellTree::kWindow[0]);
     regions.push_back({{polygon, polygon + cells.polygonSize(remaining.cell)},
                        query.heading(first),
                        query.heading(first + window),
