@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# demo.sh: on a bare Debian 12 (as root or with sudo) installs what is missing, builds the programs,
-# localizes every scan of MRPT's localization_demo (each by itself, knowing nothing of the others),
-# and draws demo.svg in the project's root. The last line is the robot's pose at the last scan:
-# pose X Y PHI_DEG.
+# demo.sh: on a bare Debian 12, 13 or testing (as root or with sudo) installs what is missing, builds
+# the programs, localizes every scan of MRPT's localization_demo (each by itself, knowing nothing of
+# the others), and draws demo.svg in the project's root. The last line is the robot's pose at the
+# last scan: pose X Y PHI_DEG.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

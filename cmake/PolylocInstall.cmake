@@ -31,4 +31,5 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/mrpt_polylocConfigVersio
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/mrpt_polylocConfig.cmake"
               "${PROJECT_BINARY_DIR}/mrpt_polylocConfigVersion.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/PolylocMrpt.cmake"
         DESTINATION "${package_dir}")

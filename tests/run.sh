@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# run.sh: the whole local gate, and the CI job. Installs the Debian packages that are missing, then
-# builds and tests twice: release with warnings as errors (build/), and under the address and
-# undefined-behaviour sanitizers (build-asan/). Ends with a line `N passed, N failed, N skipped` over
-# both; exits non-zero if anything failed. Tests on evaluation data run if POLYLOC_DATA names it.
+# run.sh: all tests, on Debian 12, 13 or testing. Installs the packages that are missing, then builds
+# and tests twice: release (build/), and under the address and undefined-behaviour sanitizers
+# (build-asan/). Ends with a line `N passed, N failed, N skipped` over both; exits non-zero if
+# anything failed. Tests on evaluation data run if POLYLOC_DATA names it. With POLYLOC_WERROR=ON
+# warnings are errors, as in the CI job (.ci/run): other compilers than its own warn of other things.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -75,16 +75,19 @@ OccupancyBitmap toBitmap(const std::string& path, const COccupancyGridMap2D& gri
 void requireModestExtent(const std::string& path, const CSimpleMap& map) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::array<double, 2> low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    const auto pose = std::get<0>(map.get(i))->getMeanVal().asTPose();
+  std::size_t number = 0;
+  // By iterators: get() hands out another type from MRPT 2.11.5 on.
+  for (const auto& keyframe : map) {
+    const auto pose = keyframe.pose->getMeanVal().asTPose();
     const std::array<double, 2> position{pose.x, pose.y};
     for (std::size_t k = 0; k < 2; ++k) {
       if (!std::isfinite(position[k]) || !std::isfinite(pose.yaw)) {
-        throw FormatError(path, "pose " + std::to_string(i), "is not finite");
+        throw FormatError(path, "pose " + std::to_string(number), "is not finite");
       }
       low[k] = std::min(low[k], position[k]);
       high[k] = std::max(high[k], position[k]);
     }
+    ++number;
   }
   const double margin = 2.0 * static_cast<double>(kMaxInsertionDistance);
   const double cells = (high[0] - low[0] + margin) / kSimpleMapResolution *
@@ -114,10 +117,9 @@ OccupancyBitmap loadSimpleMap(const std::string& path) {
   options.considerInvalidRangesAsFreeSpace = true;
 
   bool inserted = false;
-  for (std::size_t i = 0; i < map->size(); ++i) {
-    const auto [pose, frame] = map->get(i);
-    const mrpt::poses::CPose3D mean = pose->getMeanVal();
-    for (const auto& observation : *frame) {
+  for (const auto& keyframe : *map) {
+    const mrpt::poses::CPose3D mean = keyframe.pose->getMeanVal();
+    for (const auto& observation : *keyframe.sf) {
       inserted |= grid.insertObservation(*observation, mean);
     }
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-// What differs between MRPT 2.5.8, the only version this is built and tested with, and 2.15, as far
-// as what was read of MRPT's change log (to 2.13, parts of it later) and headers tells.
+// What differs between the versions of MRPT that this is built and tested with: 2.5.8, 2.14.7 and
+// 2.15.14 (Debian 12, 13 and testing). No other file asks for MRPT's version.
 // MRPT_VERSION is 0xMmp up to 2.10.1 (0x258 is 2.5.8) and 0xMMmmpp from 2.10.2 on; a test with >=
 // is right for both.
 

@@ -22,7 +22,8 @@ std::vector<PoseRegion> regionsOf(const CertifiedSearchResult& found, const Sear
   std::vector<PoseRegion> regions;
   for (const RemainingLeaf& remaining : found.regions) {
     const TPoint2D* polygon = tree.polygon(remaining.leaf);
-    const double first = remaining.heading, window = SearchTree::kWindow[0];
+    const double first = remaining.heading;
+    const auto window = static_cast<double>(SearchTree::kWindow[0]);
     regions.push_back({{polygon, polygon + tree.polygonSize(remaining.leaf)},
                        query.heading(first),
                        query.heading(first + window),

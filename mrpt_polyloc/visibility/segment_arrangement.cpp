@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/visibility/cgal_compat.h>
 #include <mrpt_polyloc/visibility/segment_arrangement.h>
 
 #include <CGAL/Arr_curve_data_traits_2.h>
@@ -83,7 +84,7 @@ Segment exactSegment(const CriticalSegment& s, const std::vector<TPoint2D>& vert
   if (s.right == s.left) return {at(s.blocker), at(s.right)};
   const auto meeting =
       CGAL::intersection(Line(at(s.behind), at(s.blocker)), Line(at(s.right), at(s.left)));
-  const Point* end = meeting ? boost::get<Point>(&*meeting) : nullptr;
+  const Point* end = meeting ? valueIf<Point>(*meeting) : nullptr;
   if (end == nullptr) throw InvalidMapError("a critical segment does not meet the edge it ends on");
   return {at(s.blocker), *end};
 }

@@ -147,8 +147,8 @@ void certifiedOverRotations(benchmark::State& state) {
   std::size_t i = 0;
   double evaluations = 0.0;
   for (auto _ : state) {
-    const auto match = distanceOverRotations(functions[i % 64], functions[(7 * i + 1) % 64], {},
-                                             CertificateParams{tolerance, 1000000});
+    auto match = distanceOverRotations(functions[i % 64], functions[(7 * i + 1) % 64], {},
+                                       CertificateParams{tolerance, 1000000});
     benchmark::DoNotOptimize(match);
     evaluations += static_cast<double>(match.evaluations);
     ++i;

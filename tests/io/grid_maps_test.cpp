@@ -52,10 +52,10 @@ class GridMaps : public test::QuietTest {
         scan.setScanRange(i, 79.0F);
         scan.setScanRangeValidity(i, false);
       }
-      mrpt::obs::CSensoryFrame frame;
-      frame.insert(mrpt::obs::CObservation2DRangeScan::Create(scan));
-      frame.insert(mrpt::obs::CObservationOdometry::Create());
-      map.insert(mrpt::poses::CPose3DPDFGaussian(pose), frame);
+      const auto frame = mrpt::obs::CSensoryFrame::Create();
+      frame->insert(mrpt::obs::CObservation2DRangeScan::Create(scan));
+      frame->insert(mrpt::obs::CObservationOdometry::Create());
+      map.insert(mrpt::poses::CPose3DPDFGaussian::Create(pose), frame);
     }
     return map;
   }
@@ -157,9 +157,9 @@ TEST_F(GridMaps, RefusesSimplemapsThatGiveNoGrid) {
   EXPECT_THAT(errorOf(roomMap({{0, 0, 0, 0, 0, 0}, {std::nan(""), 0, 0, 0, 0, 0}})),
               HasSubstr("pose 1: is not finite"));
   CSimpleMap odometry;
-  mrpt::obs::CSensoryFrame frame;
-  frame.insert(mrpt::obs::CObservationOdometry::Create());
-  odometry.insert(mrpt::poses::CPose3DPDFGaussian(), frame);
+  const auto frame = mrpt::obs::CSensoryFrame::Create();
+  frame->insert(mrpt::obs::CObservationOdometry::Create());
+  odometry.insert(mrpt::poses::CPose3DPDFGaussian::Create(), frame);
   EXPECT_THAT(errorOf(odometry), HasSubstr("no laser scan"));
 }
 

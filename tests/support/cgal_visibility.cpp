@@ -1,11 +1,12 @@
 #include "cgal_visibility.h"
 
+#include <mrpt_polyloc/visibility/cgal_compat.h>
+
 #include <CGAL/Arr_segment_traits_2.h>
 #include <CGAL/Arr_trapezoid_ric_point_location.h>
 #include <CGAL/Arrangement_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Triangular_expansion_visibility_2.h>
-#include <boost/variant/get.hpp>
 
 namespace mrpt_polyloc::test {
 namespace {
@@ -25,7 +26,7 @@ struct CgalVisibility::Impl {
   std::optional<Arrangement::Face_handle> see(const TPoint2D& from, Arrangement& seen) const {
     const Kernel::Point_2 query(from.x, from.y);
     const auto found = location.locate(query);
-    const auto* face = boost::get<Arrangement::Face_const_handle>(&found);
+    const auto* face = valueIf<Arrangement::Face_const_handle>(found);
     if (face == nullptr || (*face)->is_unbounded()) return std::nullopt;
     return visibility->compute_visibility(query, *face, seen);
   }

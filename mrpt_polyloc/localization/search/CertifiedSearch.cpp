@@ -40,8 +40,9 @@ class SeedPoses {
   void evaluate() {
     for (std::size_t i = costs_.size(); i < leaves.size(); ++i) {
       const SearchTree::View view = tree_.middleView(leaves[i].index);
+      constexpr auto kHalfWindow = static_cast<std::uint32_t>(SearchTree::kWindow[0] / 2);
       // The window's middle first; the rest of it where that is not far off.
-      const std::uint32_t middle = leaves[i].heading + SearchTree::kWindow[0] / 2;
+      const std::uint32_t middle = leaves[i].heading + kHalfWindow;
       costs_.push_back(viewCost(view, query_, middle % kBandBins));
       headings_.push_back(middle % kBandBins);
       least_ = std::min(least_, costs_[i]);
