@@ -53,9 +53,9 @@ struct Inputs {
   std::optional<std::vector<std::size_t>> good;
 };
 
-Inputs loadInputs(const Options& options) {
+Inputs loadInputs(const Program& program, const Options& options) {
   Inputs inputs;
-  inputs.scans = loadSearchedScans(options.search);
+  inputs.scans = loadSearchedScans(program, options.search);
   inputs.truth = matchTruth(inputs.scans, loadTum(options.truth), options.truth);
   if (!options.good.empty()) inputs.good = loadRows(options.good, inputs.scans.size());
   return inputs;
@@ -78,7 +78,7 @@ std::vector<ScanRecord> score(const std::vector<LocalizedScan>& localized, const
 }
 
 int evaluate(const Program& program, const Options& options) {
-  const Inputs inputs = loadInputs(options);
+  const Inputs inputs = loadInputs(program, options);
 
   const auto start = std::chrono::steady_clock::now();
   const ScanLocalizer localizer = makeLocalizer(

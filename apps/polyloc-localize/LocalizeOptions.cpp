@@ -39,11 +39,12 @@ void addScanOptions(CLI::App& cli, LocalizeOptions& options) {
          },
          "Only these scans: 0-based, ranges inclusive")
       ->type_name("I,J-K");
-  addText(cli, "--sensor", options.file.sensor_label, "Only scans of the sensor of this label")
+  addText(cli, "--sensor", options.search.file.sensor_label,
+          "Only scans of the sensor of this label")
       ->type_name("LABEL");
   addNumber(
       cli, "--laser-fov",
-      [&options](double degrees) { options.file.laser_fov = toRadians(degrees); },
+      [&options](double degrees) { options.search.file.laser_fov = toRadians(degrees); },
       {0.0, 360.0, true}, "Field of view of a CARMEN laser, where the log does not say it")
       ->type_name("DEG");
 }

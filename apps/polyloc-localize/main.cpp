@@ -42,7 +42,7 @@ int localize(const Program& program, const LocalizeOptions& options) {
     requireWritable(path);
   }
   RepairedMap loaded = loadMapWithWarnings(program, options.search.map);
-  const std::vector<RangeScan> scans = loadSearchedScans(options.search, options.file);
+  const std::vector<RangeScan> scans = loadSearchedScans(program, options.search);
   const std::vector<std::size_t> rows = chosenRows(options, scans.size());
   const ScanLocalizer localizer = makeLocalizer(std::move(loaded.map), options.search, rows.size());
   const std::vector<LocalizedScan> localized =

@@ -32,7 +32,8 @@ void requireRegularFile(const std::string& path) {
 /// Content of the file, chunk by chunk.
 class GzInputStream::Source {
  public:
-  explicit Source(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+  Source(const std::string& path, AtCut at_cut)
+      : path_(path), at_cut_(at_cut), file_(path, std::ios::binary) {
     if (!file_) throw FormatError(path_, "", "cannot be opened");
     fillInput();
     if (inflater_.avail_in == 0) throw FormatError(path_, "", "empty file");
@@ -46,6 +47,7 @@ class GzInputStream::Source {
   Source& operator=(const Source&) = delete;
 
   bool gzipped() const { return gzipped_; }
+  const std::string& cut() const { return cut_; }
   std::uint64_t position() const { return position_; }
 
   /// Makes unread content available; false at the end of it.
@@ -65,8 +67,9 @@ class GzInputStream::Source {
   }
 
  private:
+  std::string place() const { return "byte " + std::to_string(consumed_ - inflater_.avail_in); }
   [[noreturn]] void fail(const std::string& reason) const {
-    throw FormatError(path_, "byte " + std::to_string(consumed_ - inflater_.avail_in), reason);
+    throw FormatError(path_, place(), reason);
   }
 
   void fillInput() {
@@ -86,7 +89,11 @@ class GzInputStream::Source {
   void inflateChunk() {
     if (inflater_.avail_in == 0) fillInput();
     if (inflater_.avail_in == 0) {
-      if (!between_members_) fail("the compressed data is truncated");
+      if (!between_members_) {
+        const std::string reason = "the compressed data is truncated";
+        if (at_cut_ == AtCut::refuse || position_ == 0) fail(reason);
+        cut_ = place() + ": " + reason;
+      }
       done_ = true;
       return;
     }
@@ -108,6 +115,8 @@ class GzInputStream::Source {
   }
 
   const std::string& path_;
+  AtCut at_cut_;
+  std::string cut_;
   std::ifstream file_;
   bool gzipped_ = false;
   bool between_members_ = false;
@@ -120,14 +129,15 @@ class GzInputStream::Source {
   std::uint64_t position_ = 0;
 };
 
-GzInputStream::GzInputStream(const std::string& path) : path_(path) {
+GzInputStream::GzInputStream(const std::string& path, AtCut at_cut) : path_(path) {
   requireRegularFile(path_);
-  Source check(path_);
+  Source check(path_, at_cut);
   if (check.gzipped()) {
     while (check.fill()) check.skip(check.unreadCount());
     if (check.position() == 0) throw FormatError(path_, "", "empty file (nothing was compressed)");
+    cut_ = check.cut();
   }
-  source_ = std::make_unique<Source>(path_);
+  source_ = std::make_unique<Source>(path_, at_cut);
 }
 
 GzInputStream::~GzInputStream() = default;
@@ -138,6 +148,7 @@ bool GzInputStream::atEnd() {
 
 bool GzInputStream::readLine(std::string& line) {
   line.clear();
+  line_had_end_ = false;
   if (atEnd()) return false;
   while (source_->fill()) {
     const auto* begin = source_->unread();
@@ -146,6 +157,7 @@ bool GzInputStream::readLine(std::string& line) {
     line.append(begin, newline);
     const bool found = newline != end;
     source_->skip(static_cast<std::size_t>(newline - begin) + (found ? 1U : 0U));
+    line_had_end_ = found;
     if (found) break;
   }
   if (!line.empty() && line.back() == '\r') line.pop_back();

@@ -56,11 +56,13 @@ class ReplayLog : public test::QuietTest {
   std::vector<ReplayStep> load(const std::string& bytes, const std::string& label = {},
                                const OdometryNoise& noise = {}) {
     test::writeFile(path_, test::gzipped(bytes));
-    return loadReplayLog(path_, label, noise);
+    return loadReplayLog(path_, test::ofSensor(label), noise);
   }
   std::string errorOf(const std::string& bytes, const std::string& label = {}) {
     test::writeFile(path_, bytes);
-    return formatErrorOf([&] { loadReplayLog(path_, label); });
+    ScanFileOptions options = test::ofSensor(label);
+    options.strict = true;
+    return formatErrorOf([&] { loadReplayLog(path_, options); });
   }
   static void expectMovement(const ReplayStep& step, const CPose2D& expected) {
     ASSERT_TRUE(step.action);
@@ -177,7 +179,7 @@ TEST_F(ReplayLog, RefusesWhatItCannotReplay) {
   auto tilted = test::randomObservation(random_, 5);
   tilted.sensorPose.setFromValues(0, 0, 0, 0, 0.3, 0);
   EXPECT_THAT(errorOf(scan("LASER") + test::serialised(tilted)),
-              AllOf(HasSubstr("object 1"), HasSubstr("not planar")));
+              AllOf(HasSubstr("object 1"), HasSubstr("tilted by 17")));
 }
 
 TEST_F(ReplayLog, ReplaysScansThatSayNothing) {
