@@ -22,7 +22,9 @@ void warnOfRepairs(const Program& program, const std::string& path,
 }
 
 RepairedMap loadMapWithWarnings(const Program& program, const std::string& path) {
-  RepairedMap loaded = loadMap(path);
+  Notes notes;
+  RepairedMap loaded = loadMap(path, {}, &notes);
+  program.note(path, notes);
   warnOfRepairs(program, path, loaded.repairs);
   return loaded;
 }
