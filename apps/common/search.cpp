@@ -148,6 +148,7 @@ LocalizedScan localizeOne(const ScanLocalizer& localizer, const RangeScan& scan,
 void addSearchOptions(CLI::App& options, SearchOptions& search) {
   options.parse_complete_callback([&search] { checkTogether(search); });
   addText(options, "--map", search.map, kMapFormats)->required()->type_name("MAP");
+  addScaleOption(options, search.scale);
   addText(options, "--scans", search.scans,
           "The scans: .rawlog or CARMEN .log/.clf, plain or gz; for --method exact .wkt")
       ->required()

@@ -20,6 +20,7 @@ namespace mrpt_polyloc::apps {
 /// What polyloc-localize and polyloc-eval ask for alike.
 struct SearchOptions {
   std::string map;
+  double scale = 1.0;  ///< metres per unit of the map's file
   std::string scans;
   ScanFileOptions file;  ///< how they are read
   std::string method = "certified";
@@ -35,7 +36,8 @@ struct SearchOptions {
   Calibration calibration;
 };
 
-/// Adds --map, --scans, --max-range, --min-range, --strict, --method, --range, --max-hypotheses,
+/// Adds --map, --scale, --scans, --max-range, --min-range, --strict, --method, --range,
+/// --max-hypotheses,
 /// --threads and --calibration.
 /// --range with another method than cells is a usage error.
 void addSearchOptions(CLI::App& options, SearchOptions& search);

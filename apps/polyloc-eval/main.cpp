@@ -81,8 +81,9 @@ int evaluate(const Program& program, const Options& options) {
   const Inputs inputs = loadInputs(program, options);
 
   const auto start = std::chrono::steady_clock::now();
-  const ScanLocalizer localizer = makeLocalizer(
-      loadMapWithWarnings(program, options.search.map).map, options.search, inputs.scans.size());
+  const ScanLocalizer localizer =
+      makeLocalizer(loadMapWithWarnings(program, options.search.map, options.search.scale).map,
+                    options.search, inputs.scans.size());
   const std::chrono::duration<double> build = std::chrono::steady_clock::now() - start;
 
   const std::filesystem::path folder = options.folder;

@@ -50,6 +50,10 @@ void addScanOptions(CLI::App& cli, LocalizeOptions& options) {
 }
 
 void addOutputOptions(CLI::App& cli, LocalizeOptions& options) {
+  cli.add_flag(
+      "--explain", options.explain,
+      "Search nothing: print what was assumed of the map and of the readings, with figures, "
+      "and what looks odd");
   addText(cli, "--svg", options.svg,
           "Draw the map, the last localized scan with its hypotheses, and the path of the best")
       ->type_name("PIC.svg");

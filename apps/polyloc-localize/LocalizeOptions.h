@@ -18,6 +18,7 @@ struct LocalizeOptions {
   double compass_tolerance_deg = 10.0;  ///< what a compass indoors is good for
   std::string rows;                     ///< --rows as given, for messages
   std::vector<RowRange> ranges = {{0, std::numeric_limits<std::uint64_t>::max()}};
+  bool explain = false;             ///< tell what was made of map and scans, and search nothing
   std::string svg, pf_ini, output;  ///< paths; empty: not asked for
 };
 

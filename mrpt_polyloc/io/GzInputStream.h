@@ -9,13 +9,16 @@
 
 namespace mrpt_polyloc {
 
-/// A file to read, gzipped or plain (told by its first two bytes), as a stream for MRPT's archives
-/// and for lines of text.
+/// Whether a file that begins so is compressed by gzip or zstd.
+bool isCompressed(const std::string& head);
+
+/// A file to read, compressed by gzip or zstd or plain (told by its first bytes, whatever its
+/// name), as a stream for MRPT's archives and for lines of text.
 ///
 /// MRPT's own CFileGZInputStream takes a truncated or damaged gzip file for one that ends early, so
-/// half a file passes for a whole one. Here a gzip file is decompressed once at construction to
-/// check that it is complete and its checksums are right, before anything is made of its content:
-/// a damaged length could make a parser allocate at random.
+/// half a file passes for a whole one. Here a compressed file is decompressed once at construction
+/// to check that it is complete and its checksums are right (zstd may have none), before anything
+/// is made of its content: a damaged length could make a parser allocate at random.
 ///
 /// Files that end too early are refused, or read up to there (AtCut): what comes before a cut is
 /// right, unlike what comes after damage.
@@ -25,8 +28,8 @@ class GzInputStream : public mrpt::io::CStream {
   enum class AtCut { refuse, end };
 
   /// \throws FormatError if the file does not exist, is not a regular file, cannot be read, is
-  /// empty, or is a gzip file that is damaged or followed by something else, or truncated: with
-  /// AtCut::end only if no content comes before the cut. The place is a byte of the file.
+  /// empty, or is a compressed file that is damaged or followed by something else, or truncated:
+  /// with AtCut::end only if no content comes before the cut. The place is a byte of the file.
   explicit GzInputStream(const std::string& path, AtCut at_cut = AtCut::refuse);
   ~GzInputStream() override;
   GzInputStream(const GzInputStream&) = delete;

@@ -2,6 +2,7 @@
 #include <mrpt_polyloc/io/bitmap_files.h>
 #include <mrpt_polyloc/io/file_extension.h>
 #include <mrpt_polyloc/io/map_files.h>
+#include <mrpt_polyloc/io/map_units.h>
 #include <mrpt_polyloc/io/polygon_files.h>
 #include <mrpt_polyloc/io/ros_map.h>
 
@@ -22,11 +23,17 @@ PolygonMap trace(const OccupancyBitmap& bitmap, const std::string& path,
 
 }  // namespace
 
-RepairedMap loadMap(const std::string& path, const GridMapParams& params, Notes* notes) {
-  if (const auto bitmap = loadBitmap(path, notes)) return {trace(*bitmap, path, params), {}, {}};
+RepairedMap loadMap(const std::string& path, const GridMapParams& params, Notes* notes,
+                    double scale) {
+  if (auto bitmap = loadBitmap(path, notes)) {
+    scaleMap(scale, *bitmap);
+    requireMetres(path, *bitmap);
+    return {trace(*bitmap, path, params), {}, {}};
+  }
   const std::string extension = contentExtension(path);
-  if (extension == ".geojson" || extension == ".wkt" || extension == ".json") {
-    return loadPolygonMap(path);
+  if (extension == ".geojson" || extension == ".wkt" || extension == ".json" ||
+      extension == ".dxf") {
+    return loadPolygonMap(path, notes, scale);
   }
   throw FormatError(path, "",
                     "unknown extension '" + extension +

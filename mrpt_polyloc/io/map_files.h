@@ -22,9 +22,11 @@ struct GridMapParams {
 /// Any map file the project reads, by extension: .geojson, .wkt, .json (HouseExpo), .yaml/.yml (ROS
 /// map_server), .gridmap[.gz], .simplemap[.gz] (both MRPT's). Grids are cleaned and traced.
 /// \param notes gets a sentence for all that was assumed of the file; may be null
-/// \throws FormatError naming file and place; InvalidMapError naming the file, with located
+/// \param scale metres per unit of the file
+/// \throws FormatError naming file and place, also if the map cannot be in metres (see
+/// requireMetres()); InvalidMapError naming the file, with located
 /// defects.
 RepairedMap loadMap(const std::string& path, const GridMapParams& params = {},
-                    Notes* notes = nullptr);
+                    Notes* notes = nullptr, double scale = 1.0);
 
 }  // namespace mrpt_polyloc

@@ -11,9 +11,10 @@ std::vector<RangeScan> loadScans(const std::string& path, const ScanFileOptions&
   const std::string extension = contentExtension(path);
   if (extension == ".rawlog") return loadRawlog(path, options, notes);
   if (extension == ".log" || extension == ".clf") return loadCarmen(path, options, notes);
-  throw FormatError(path, "",
-                    "unknown extension '" + extension +
-                        "', known for scans are .rawlog, .log and .clf, each also with .gz");
+  throw FormatError(
+      path, "",
+      "unknown extension '" + extension +
+          "', known for scans are .rawlog, .log and .clf, each also with .gz or .zst");
 }
 
 }  // namespace mrpt_polyloc
