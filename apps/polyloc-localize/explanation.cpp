@@ -156,7 +156,8 @@ std::string explainScans(const SearchOptions& search) {
   const double all = static_cast<double>(std::max<std::size_t>(1, figures.beams));
   const double hits = static_cast<double>(figures.hits) / all;
   const double no_returns = static_cast<double>(figures.no_returns) / all;
-  const double nothing = 1.0 - hits - no_returns;
+  const double nothing =
+      static_cast<double>(figures.beams - figures.hits - figures.no_returns) / all;
 
   std::string text = "scans " + search.scans + "\n";
   text += line("scans         %zu of %zu to %zu beams, over %.1f deg", figures.scans,

@@ -28,8 +28,9 @@ LoggedScan toLoggedScan(const mrpt::obs::CObservation2DRangeScan& observation);
 void applyFacts(const SensorFacts& facts, mrpt::obs::CObservation2DRangeScan& observation);
 
 /// A scan as MRPT's observation, swept right to left; the inverse of toRangeScan() up to the single
-/// precision of MRPT's ranges. A RangeScan does not keep the bearings of its invalid beams, hence
-/// the sensor's shape is given.
+/// precision of MRPT's ranges and hits at or above kNoReturnShare of the maximum range, which come
+/// back as no-returns. A RangeScan does not keep the bearings of its invalid beams, hence the
+/// sensor's shape is given.
 ///
 /// \param scan whose beams are spread evenly over `aperture`, both ends included, in rising order
 /// \param aperture field of view [rad]

@@ -82,6 +82,65 @@ TEST_F(PolylocLocalize, KeepsItsIndexInAFile) {
   EXPECT_EQ(withoutTimes(reads.out), withoutTimes(plain.out));
 }
 
+TEST_F(PolylocLocalize, ExplainsWhatItMakesOfMapAndScans) {
+  simulate("sim");
+  const Outcome outcome = localize({"--explain"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, IsEmpty());
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("free space    36.90 m2 in 1 parts"), HasSubstr("hits"),
+                                 HasSubstr("odd: no reading is a no-return")));
+  EXPECT_THAT(localize({"--explain", "--max-range", "2"}).out,
+              AllOf(HasSubstr("nothing within 2.00 m"), HasSubstr("odd: the range is short")));
+  EXPECT_EQ(localize({"--explain", "--method", "exact"}).code, 2);
+  write("bad.wkt", "POLYGON ((");
+  EXPECT_EQ(run("polyloc-localize",
+                {"--map", path("bad.wkt"), "--scans", path("sim/scans.rawlog"), "--explain"})
+                .code,
+            1);
+}
+
+TEST_F(PolylocLocalize, TakesLimitsOfTheRange) {
+  simulate("sim");
+  const std::string plain = withoutTimes(localize({}).out);
+  EXPECT_NE(withoutTimes(localize({"--max-range", "1.5"}).out), plain);
+  EXPECT_NE(withoutTimes(localize({"--min-range", "1.5"}).out), plain);
+  EXPECT_EQ(withoutTimes(localize({"--max-range", "1000", "--min-range", "0"}).out), plain);
+  for (const char* bad : {"0", "-1", "inf", "x"}) {
+    EXPECT_EQ(localize({"--max-range", bad}).code, 2) << bad;
+  }
+  EXPECT_EQ(localize({"--min-range", "-1"}).code, 2);
+  EXPECT_EQ(localize({"--max-range", "1", "--min-range", "2"}).code, 1);
+}
+
+TEST_F(PolylocLocalize, UsesTheWholePartOfALogThatIsCutShort) {
+  simulate("sim");
+  const std::string whole = readFile(path("sim/scans.rawlog"));
+  write("cut.rawlog", whole.substr(0, whole.size() - 20));
+  const Outcome outcome = localize({}, "cut.rawlog");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, AllOf(StartsWith("polyloc-localize: "),
+                                 HasSubstr("cut.rawlog: note: it is cut short")));
+  const Outcome strict = localize({"--strict"}, "cut.rawlog");
+  EXPECT_EQ(strict.code, 1);
+  EXPECT_THAT(strict.err, HasSubstr("truncated"));
+}
+
+TEST_F(PolylocLocalize, ScalesAMapInMillimetres) {
+  simulate("sim");
+  write("mm.wkt", "POLYGON ((0 0, 4000 0, 4000 3000, 0 3000))");
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"--map", path("mm.wkt"), "--scans",
+                                          path("sim/scans.rawlog")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run("polyloc-localize", arguments);
+  };
+  const Outcome refused = with({});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("mm.wkt"), HasSubstr("--scale 0.001")));
+  EXPECT_EQ(with({"--scale", "0.001"}).code, 0);
+  EXPECT_EQ(with({"--scale", "0"}).code, 2);
+}
+
 TEST_F(PolylocLocalize, RefusesAFileThatIsNotItsIndex) {
   simulate("sim");
   write("bad.index", "no index at all");
