@@ -1,5 +1,6 @@
 #include "tests/support/bridge_files.h"
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/io/replay_log.h>
 
 #include <gmock/gmock.h>
@@ -162,6 +163,22 @@ TEST_F(ReplayLog, ReadsAWholeLogStoredAsOneObject) {
   log.insert(sf);
   log.insert(sf);
   EXPECT_EQ(load(test::serialised(log)).size(), 2U);
+}
+
+TEST_F(ReplayLog, TellsTheObservationsWhatIsKnownOfTheSensor) {
+  test::writeFile(path_, scan() + scan() + scan());
+  ScanFileOptions options;
+  options.readings.max_range = 20.0;
+  options.readings.min_range = 5.0;
+  const auto steps = loadReplayLog(path_, options);
+  ASSERT_EQ(steps.size(), 3U);
+  for (const ReplayStep& step : steps) {
+    EXPECT_EQ(step.laser->maxRange, 20.0F);
+    EXPECT_TRUE(test::sameScans({toRangeScan(*step.laser)}, {step.scan}));
+    for (const Beam& beam : step.scan.beams()) {
+      EXPECT_TRUE(beam.kind == BeamKind::invalid || (beam.range >= 5.0 && beam.range <= 20.0));
+    }
+  }
 }
 
 TEST_F(ReplayLog, RefusesWhatItCannotReplay) {
