@@ -7,7 +7,8 @@
 namespace mrpt_polyloc::apps {
 
 const char* const kMapFormats =
-    "The map: .geojson, .wkt, HouseExpo .json, ROS .yaml, MRPT .gridmap[.gz] or .simplemap[.gz]";
+    "The map: .geojson, .wkt, HouseExpo .json, ROS .yaml, MRPT .gridmap or "
+    ".simplemap, each plain, gzip or zstd";
 
 void warnOfRepairs(const Program& program, const std::string& path,
                    const std::vector<Repair>& repairs) {

@@ -150,7 +150,7 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
   addText(options, "--map", search.map, kMapFormats)->required()->type_name("MAP");
   addScaleOption(options, search.scale);
   addText(options, "--scans", search.scans,
-          "The scans: .rawlog or CARMEN .log/.clf, plain or gz; for --method exact .wkt")
+          "The scans: .rawlog or CARMEN .log/.clf, plain, gzip or zstd; for --method exact .wkt")
       ->required()
       ->type_name("FILE");
   addReadingOptions(options, search.file);

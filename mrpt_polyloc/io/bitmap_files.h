@@ -14,7 +14,7 @@ namespace mrpt_polyloc {
 constexpr std::int64_t kMaxBitmapCells = 400'000'000;
 
 /// The occupancy grid in a ROS map (.yaml, .yml) or an MRPT .gridmap or .simplemap, the latter two
-/// also with .gz behind; extensions in any case. None for any other extension.
+/// also with .gz or .zst behind; extensions in any case. None for any other extension.
 /// \param notes as in loadRosMap()
 /// \throws FormatError as loadRosMap(), loadGridMap() and loadSimpleMap().
 std::optional<OccupancyBitmap> loadBitmap(const std::string& path, Notes* notes = nullptr);

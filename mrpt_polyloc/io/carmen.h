@@ -4,9 +4,9 @@
 
 namespace mrpt_polyloc {
 
-/// The scans of a CARMEN log, plain or gzipped, in file order: lines FLASER and ROBOTLASER1, whose
-/// keyword is the sensor's label. If there are none, or if their label is asked for: RAWLASER1 and
-/// 2, RLASER, ROBOTLASER2. Other lines are passed over.
+/// The scans of a CARMEN log, plain or compressed, in file order: lines FLASER and ROBOTLASER1,
+/// whose keyword is the sensor's label. If there are none, or if their label is asked for:
+/// RAWLASER1 and 2, RLASER, ROBOTLASER2. Other lines are passed over.
 ///
 /// FLASER says only the ranges, so where its beams look is told by, in this order:
 /// `options.laser_fov`, spread over the beams and straight ahead in the middle;

@@ -49,10 +49,12 @@ LoggedScan toLoggedScan(const mrpt::obs::CObservation2DRangeScan& observation) {
   LoggedScan scan;
   scan.step = count > 1 ? sweep / static_cast<double>(count - 1) : 0.0;
   scan.first = count > 1 ? -0.5 * sweep : 0.0;
-  scan.ranges.resize(count);
+  if (count > 0) {  // not one by one: MRPT checks each index
+    const float* const ranges = &observation.getScanRange(0);
+    scan.ranges.assign(ranges, ranges + count);
+  }
   scan.flags.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    scan.ranges[i] = static_cast<double>(observation.getScanRange(i));
     scan.flags[i] = observation.getScanRangeValidity(i) ? 1 : 0;
   }
   scan.max_range = static_cast<double>(observation.maxRange);

@@ -7,7 +7,7 @@
 
 namespace mrpt_polyloc {
 
-/// The 2D laser scans of an MRPT rawlog, plain or gzipped, in file order: action / sensory-frame
+/// The 2D laser scans of an MRPT rawlog, plain or compressed, in file order: action / sensory-frame
 /// pairs, observations only, or a whole CRawlog stored as one object. Everything that is not a 2D
 /// laser scan is passed over.
 ///

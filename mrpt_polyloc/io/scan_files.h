@@ -23,7 +23,7 @@ struct ScanFileOptions {
 };
 
 /// All laser scans of a log, in file order: .rawlog (action/sensory-frame or observations only),
-/// CARMEN .log/.clf, each plain or gzipped.
+/// CARMEN .log/.clf, each plain or compressed by gzip or zstd.
 /// \param notes gets a sentence for all that was assumed or is missing; may be null
 /// \throws FormatError naming file and place (object, line or byte) for a missing, empty, damaged
 /// or foreign file, one that is cut short (if `options.strict`, or if no scan of it is whole), an
