@@ -69,6 +69,12 @@ void Program::warn(const std::string& message) const {
   std::cerr << name_ << ": warning: " << message << '\n';
 }
 
+void Program::note(const std::string& file, const Notes& notes) const {
+  for (const std::string& text : notes) {
+    std::cerr << name_ << ": " << file << ": note: " << text << '\n';
+  }
+}
+
 CLI::Option* addNumber(CLI::App& options, const std::string& flag,
                        const std::function<void(double)>& take, const NumberRange& range,
                        const std::string& description) {

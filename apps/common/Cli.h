@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/notes.h>
+
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
@@ -34,6 +36,9 @@ class Program {
 
   /// One line `NAME: warning: MESSAGE` on stderr.
   void warn(const std::string& message) const;
+
+  /// One line `NAME: FILE: note: MESSAGE` on stderr for each of what a loader assumed of a file.
+  void note(const std::string& file, const Notes& notes) const;
 
  private:
   std::string name_;

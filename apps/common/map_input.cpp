@@ -7,7 +7,8 @@
 namespace mrpt_polyloc::apps {
 
 const char* const kMapFormats =
-    "The map: .geojson, .wkt, HouseExpo .json, ROS .yaml, MRPT .gridmap[.gz] or .simplemap[.gz]";
+    "The map: .geojson, .wkt, HouseExpo .json, ROS .yaml, MRPT .gridmap or "
+    ".simplemap, each plain, gzip or zstd";
 
 void warnOfRepairs(const Program& program, const std::string& path,
                    const std::vector<Repair>& repairs) {
@@ -21,8 +22,16 @@ void warnOfRepairs(const Program& program, const std::string& path,
   }
 }
 
-RepairedMap loadMapWithWarnings(const Program& program, const std::string& path) {
-  RepairedMap loaded = loadMap(path);
+void addScaleOption(CLI::App& cli, double& scale) {
+  addNumber(cli, "--scale", scale, {0.0, 1e6, true},
+            "Metres per unit of the map's file, as 0.001 for millimetres [default: 1]")
+      ->type_name("F");
+}
+
+RepairedMap loadMapWithWarnings(const Program& program, const std::string& path, double scale) {
+  Notes notes;
+  RepairedMap loaded = loadMap(path, {}, &notes, scale);
+  program.note(path, notes);
   warnOfRepairs(program, path, loaded.repairs);
   return loaded;
 }

@@ -14,8 +14,13 @@ extern const char* const kMapFormats;
 void warnOfRepairs(const Program& program, const std::string& path,
                    const std::vector<Repair>& repairs);
 
-/// Loads a map and warns of what had to be repaired in it.
+/// Loads a map, warns of what had to be repaired in it, and notes what was assumed of it.
+/// \param scale metres per unit of the file
 /// \throws FormatError, InvalidMapError
-RepairedMap loadMapWithWarnings(const Program& program, const std::string& path);
+RepairedMap loadMapWithWarnings(const Program& program, const std::string& path,
+                                double scale = 1.0);
+
+/// Adds --scale: what every program that reads a map of its user's asks for.
+void addScaleOption(CLI::App& cli, double& scale);
 
 }  // namespace mrpt_polyloc::apps

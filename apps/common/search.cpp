@@ -3,6 +3,7 @@
 #include "OutputFiles.h"
 #include "Progress.h"
 #include "map_input.h"
+#include "scan_input.h"
 #include "view_polygons.h"
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/errors.h>
@@ -150,10 +151,12 @@ LocalizedScan localizeOne(const ScanLocalizer& localizer, const RangeScan& scan,
 void addSearchOptions(CLI::App& options, SearchOptions& search) {
   options.parse_complete_callback([&search] { checkTogether(search); });
   addText(options, "--map", search.map, kMapFormats)->required()->type_name("MAP");
+  addScaleOption(options, search.scale);
   addText(options, "--scans", search.scans,
-          "The scans: .rawlog or CARMEN .log/.clf, plain or gz; for --method exact .wkt")
+          "The scans: .rawlog or CARMEN .log/.clf, plain, gzip or zstd; for --method exact .wkt")
       ->required()
       ->type_name("FILE");
+  addReadingOptions(options, search.file);
   options
       .add_option_function<std::string>(
           "--method",
@@ -211,8 +214,12 @@ ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::si
   return makeGlobal(std::move(map), search);
 }
 
-std::vector<RangeScan> loadSearchedScans(const SearchOptions& search, const ScanFileOptions& file) {
-  return search.method == "exact" ? loadViewPolygons(search.scans) : loadScans(search.scans, file);
+std::vector<RangeScan> loadSearchedScans(const Program& program, const SearchOptions& search) {
+  if (search.method == "exact") return loadViewPolygons(search.scans);
+  Notes notes;
+  std::vector<RangeScan> scans = loadScans(search.scans, search.file, &notes);
+  program.note(search.scans, notes);
+  return scans;
 }
 
 std::vector<LocalizedScan> localizeScans(const ScanLocalizer& localizer,

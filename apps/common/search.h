@@ -20,7 +20,9 @@ namespace mrpt_polyloc::apps {
 /// What polyloc-localize and polyloc-eval ask for alike.
 struct SearchOptions {
   std::string map;
+  double scale = 1.0;  ///< metres per unit of the map's file
   std::string scans;
+  ScanFileOptions file;  ///< how they are read
   std::string method = "certified";
   std::optional<double> cell_range;  ///< of --method cells [m]
   std::string index;                 ///< file to keep the certified search's index in; empty: none
@@ -34,7 +36,9 @@ struct SearchOptions {
   Calibration calibration;
 };
 
-/// Adds --map, --scans, --method, --range, --max-hypotheses, --threads and --calibration.
+/// Adds --map, --scale, --scans, --max-range, --min-range, --strict, --method, --range,
+/// --max-hypotheses,
+/// --threads and --calibration.
 /// --range with another method than cells is a usage error.
 void addSearchOptions(CLI::App& options, SearchOptions& search);
 
@@ -55,10 +59,9 @@ void addCertifiedOptions(CLI::App& options, SearchOptions& search);
 /// \throws FormatError naming the index or the calibration file; CellBudgetError
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::size_t scans);
 
-/// What the method searches for: the scans of a log or, for `exact`, the polygons of a WKT file
-/// (see loadViewPolygons()).
-std::vector<RangeScan> loadSearchedScans(const SearchOptions& search,
-                                         const ScanFileOptions& file = {});
+/// What the method searches for: the scans of a log, with notes on what was assumed of it, or, for
+/// `exact`, the polygons of a WKT file (see loadViewPolygons()).
+std::vector<RangeScan> loadSearchedScans(const Program& program, const SearchOptions& search);
 
 /// A scan and what was found for it.
 struct LocalizedScan {

@@ -2,7 +2,6 @@
 
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/truth.h>
-#include <mrpt_polyloc/io/scan_files.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -20,13 +19,17 @@ std::vector<std::string> wordsOf(const std::string& line) {
   return words;
 }
 
-CalibrationSet loadSet(const std::vector<std::string>& words, const std::filesystem::path& folder) {
+CalibrationSet loadSet(const Program& program, const std::vector<std::string>& words,
+                       const std::filesystem::path& folder, const ScanFileOptions& file) {
   const auto resolve = [&](const std::string& name) { return (folder / name).string(); };
   CalibrationSet set;
   set.name = words[0];
   set.map = resolve(words[1]);
   if (!std::filesystem::exists(set.map)) throw FormatError(set.map, "", "no such file");
-  set.scans = loadScans(resolve(words[2]));
+  const std::string scans = resolve(words[2]);
+  Notes notes;
+  set.scans = loadScans(scans, file, &notes);
+  program.note(scans, notes);
   const std::string truth = resolve(words[3]);
   set.truth = matchTruth(set.scans, loadTum(truth), truth);
   set.good.assign(set.scans.size(), words.size() < 5);
@@ -40,7 +43,8 @@ CalibrationSet loadSet(const std::vector<std::string>& words, const std::filesys
 
 }  // namespace
 
-std::vector<CalibrationSet> loadCalibrationSets(const std::string& path) {
+std::vector<CalibrationSet> loadCalibrationSets(const Program& program, const std::string& path,
+                                                const ScanFileOptions& file_options) {
   std::ifstream file(path);
   if (!file) throw FormatError(path, "", "no such file, or not readable");
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
@@ -58,7 +62,7 @@ std::vector<CalibrationSet> loadCalibrationSets(const std::string& path) {
                     [&](const CalibrationSet& set) { return set.name == words[0]; })) {
       throw FormatError(path, place, "the name " + words[0] + " is taken");
     }
-    sets.push_back(loadSet(words, folder));
+    sets.push_back(loadSet(program, words, folder, file_options));
   }
   if (sets.size() < 2) {
     throw FormatError(path, "",

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "../common/Cli.h"
+#include <mrpt_polyloc/io/scan_files.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <mrpt/math/TPose2D.h>
@@ -20,9 +22,11 @@ struct CalibrationSet {
 };
 
 /// Reads a list: `NAME MAP SCANS TRUTH [GOOD]` a line, `#` comments, paths from the list's folder
-/// on, without blanks. Without GOOD all rows are good.
+/// on, without blanks. Without GOOD all rows are good. Prints notes on what was assumed of scans.
+/// \param file how all scans are read
 /// \throws FormatError naming file and line, or the file of a set: fewer than two sets, a name
 /// twice, a file that is not there or not readable
-std::vector<CalibrationSet> loadCalibrationSets(const std::string& path);
+std::vector<CalibrationSet> loadCalibrationSets(const Program& program, const std::string& path,
+                                                const ScanFileOptions& file);
 
 }  // namespace mrpt_polyloc::apps

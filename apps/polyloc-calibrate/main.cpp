@@ -2,6 +2,7 @@
 
 #include "../common/Cli.h"
 #include "../common/OutputFiles.h"
+#include "../common/scan_input.h"
 #include "calibration_sets.h"
 #include "curves.h"
 #include "sample_collection.h"
@@ -30,6 +31,7 @@ struct Options {
   std::uint64_t foreign = CollectionSize{}.foreign;
   std::uint64_t threads = 0;
   CalibrationFitParams fit;
+  ScanFileOptions file;
 };
 
 void addOptions(CLI::App& cli, Options& options) {
@@ -38,6 +40,7 @@ void addOptions(CLI::App& cli, Options& options) {
   addText(cli, "-o", options.folder, "Folder for calibration.json, report.json and the curves")
       ->required()
       ->type_name("DIR");
+  addReadingOptions(cli, options.file);
   addText(cli, "--header", options.header, "Write the constants as C++ too: default_calibration.h")
       ->type_name("FILE.h");
   addCount(cli, "--own", options.own, 1, kMost,
@@ -107,7 +110,7 @@ void printOutcome(const char* title, const CalibrationOutcome& outcome) {
 }
 
 int calibrate(const Program& program, const Options& options) {
-  const std::vector<CalibrationSet> sets = loadCalibrationSets(options.sets);
+  const std::vector<CalibrationSet> sets = loadCalibrationSets(program, options.sets, options.file);
   const std::filesystem::path folder = options.folder;
   makeFolder(options.folder);
   requireWritable(folder / "calibration.json");

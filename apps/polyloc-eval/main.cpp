@@ -53,9 +53,9 @@ struct Inputs {
   std::optional<std::vector<std::size_t>> good;
 };
 
-Inputs loadInputs(const Options& options) {
+Inputs loadInputs(const Program& program, const Options& options) {
   Inputs inputs;
-  inputs.scans = loadSearchedScans(options.search);
+  inputs.scans = loadSearchedScans(program, options.search);
   inputs.truth = matchTruth(inputs.scans, loadTum(options.truth), options.truth);
   if (!options.good.empty()) inputs.good = loadRows(options.good, inputs.scans.size());
   return inputs;
@@ -78,11 +78,12 @@ std::vector<ScanRecord> score(const std::vector<LocalizedScan>& localized, const
 }
 
 int evaluate(const Program& program, const Options& options) {
-  const Inputs inputs = loadInputs(options);
+  const Inputs inputs = loadInputs(program, options);
 
   const Stopwatch watch;
-  const ScanLocalizer localizer = makeLocalizer(
-      loadMapWithWarnings(program, options.search.map).map, options.search, inputs.scans.size());
+  const ScanLocalizer localizer =
+      makeLocalizer(loadMapWithWarnings(program, options.search.map, options.search.scale).map,
+                    options.search, inputs.scans.size());
   const double build_s = watch.seconds();
 
   const std::filesystem::path folder = options.folder;

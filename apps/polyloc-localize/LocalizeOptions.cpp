@@ -39,16 +39,21 @@ void addScanOptions(CLI::App& cli, LocalizeOptions& options) {
          },
          "Only these scans: 0-based, ranges inclusive")
       ->type_name("I,J-K");
-  addText(cli, "--sensor", options.file.sensor_label, "Only scans of the sensor of this label")
+  addText(cli, "--sensor", options.search.file.sensor_label,
+          "Only scans of the sensor of this label")
       ->type_name("LABEL");
   addNumber(
       cli, "--laser-fov",
-      [&options](double degrees) { options.file.laser_fov = toRadians(degrees); },
+      [&options](double degrees) { options.search.file.laser_fov = toRadians(degrees); },
       {0.0, 360.0, true}, "Field of view of a CARMEN laser, where the log does not say it")
       ->type_name("DEG");
 }
 
 void addOutputOptions(CLI::App& cli, LocalizeOptions& options) {
+  cli.add_flag(
+      "--explain", options.explain,
+      "Search nothing: print what was assumed of the map and of the readings, with figures, "
+      "and what looks odd");
   addText(cli, "--svg", options.svg,
           "Draw the map, the last localized scan with its hypotheses, and the path of the best")
       ->type_name("PIC.svg");

@@ -2,7 +2,6 @@
 
 #include "../common/parsing.h"
 #include "../common/search.h"
-#include <mrpt_polyloc/io/scan_files.h>
 #include <mrpt_polyloc/localization/scan/PosePrior.h>
 
 #include <cstdint>
@@ -17,9 +16,9 @@ struct LocalizeOptions {
   SearchOptions search;
   PosePrior prior;
   double compass_tolerance_deg = 10.0;  ///< what a compass indoors is good for
-  ScanFileOptions file;
-  std::string rows;  ///< --rows as given, for messages
+  std::string rows;                     ///< --rows as given, for messages
   std::vector<RowRange> ranges = {{0, std::numeric_limits<std::uint64_t>::max()}};
+  bool explain = false;             ///< tell what was made of map and scans, and search nothing
   std::string svg, pf_ini, output;  ///< paths; empty: not asked for
 };
 

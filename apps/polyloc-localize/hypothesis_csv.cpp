@@ -27,17 +27,24 @@ std::string poseColumns(const Hypothesis& hypothesis) {
 }  // namespace
 
 std::string hypothesisCsv(const std::vector<LocalizedScan>& scans) {
-  std::string csv = "row,stamp,status,rank,x,y,phi_deg,weight,cost,std_x,std_y,std_phi_deg,ms\n";
+  std::string csv =
+      "row,stamp,status,rank,x,y,phi_deg,weight,cost,std_x,std_y,std_phi_deg,ms,match,"
+      "listed,cov_xy\n";
   for (const LocalizedScan& scan : scans) {
-    char stamp[40], ms[40];
+    char stamp[40];
     std::snprintf(stamp, sizeof stamp, "%.6f", scan.stamp);
-    std::snprintf(ms, sizeof ms, "%.3f", scan.ms);
     const std::string head =
         std::to_string(scan.row) + "," + stamp + "," + toString(scan.result.status) + ",";
     const std::vector<Hypothesis>& hypotheses = scan.result.hypotheses;
-    if (hypotheses.empty()) csv += head + "0,,,,,,,,," + ms + "\n";
+    char tail[120];
+    std::snprintf(tail, sizeof tail, ",%.3f,%.4f,%.6g,", scan.ms, scan.result.match_probability,
+                  scan.result.listed);
+    if (hypotheses.empty()) csv += head + "0,,,,,,,," + tail + "\n";
     for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-      csv += head + std::to_string(i + 1) + "," + poseColumns(hypotheses[i]) + "," + ms + "\n";
+      char covariance[40];
+      std::snprintf(covariance, sizeof covariance, "%.4g", hypotheses[i].covariance(0, 1));
+      csv += head + std::to_string(i + 1) + "," + poseColumns(hypotheses[i]) + tail + covariance +
+             "\n";
     }
   }
   return csv;

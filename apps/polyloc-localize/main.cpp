@@ -5,6 +5,7 @@
 #include "../common/map_input.h"
 #include "../common/search.h"
 #include "LocalizeOptions.h"
+#include "explanation.h"
 #include "hypothesis_csv.h"
 #include "particle_filter_ini.h"
 #include "scan_picture.h"
@@ -38,11 +39,18 @@ std::string iniText(const LocalizeOptions& options, const std::vector<LocalizedS
 }
 
 int localize(const Program& program, const LocalizeOptions& options) {
+  if (options.explain) {
+    if (options.search.method == "exact") {
+      throw UsageError("--explain is of scans of a log: it does not go with --method exact");
+    }
+    std::cout << explain(options);
+    return kDone;
+  }
   for (const std::string& path : {options.output, options.svg, options.pf_ini}) {
     requireWritable(path);
   }
-  RepairedMap loaded = loadMapWithWarnings(program, options.search.map);
-  const std::vector<RangeScan> scans = loadSearchedScans(options.search, options.file);
+  RepairedMap loaded = loadMapWithWarnings(program, options.search.map, options.search.scale);
+  const std::vector<RangeScan> scans = loadSearchedScans(program, options.search);
   const std::vector<std::size_t> rows = chosenRows(options, scans.size());
   const ScanLocalizer localizer = makeLocalizer(std::move(loaded.map), options.search, rows.size());
   const std::vector<LocalizedScan> localized =

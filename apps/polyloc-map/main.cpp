@@ -30,6 +30,7 @@ struct Options {
   std::string svg;
   std::string scene;
   std::string view;
+  double scale = 1.0;
   bool check = false;
   bool cells = false;
   std::optional<double> range;  // of the cells [m]
@@ -38,6 +39,7 @@ struct Options {
 
 void addOptions(CLI::App& cli, Options& options) {
   addText(cli, "INPUT", options.input, kMapFormats)->required()->type_name("");
+  addScaleOption(cli, options.scale);
   addText(cli, "-o", options.output, "Write the map as .geojson, or .wkt if it has no open edges")
       ->type_name("OUT");
   addText(cli, "--view", options.view,
@@ -110,7 +112,7 @@ void report(const Options& options, const RepairedMap& loaded, const CellReport*
 /// Loads the map; one that has no valid form is reported before it is refused.
 RepairedMap load(const Program& program, const Options& options) {
   try {
-    return loadMapWithWarnings(program, options.input);
+    return loadMapWithWarnings(program, options.input, options.scale);
   } catch (const InvalidMapError&) {
     const std::vector<Defect> defects = defectsOfFile(options.input);
     if (options.json) std::cout << jsonReport(defects).dump(2) << '\n';

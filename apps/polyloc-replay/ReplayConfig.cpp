@@ -184,6 +184,8 @@ void readPolyloc(ReplayConfig& config) {
   IniSection section(config.text, "polyloc",
                      {"map",
                       "sensor",
+                      "max_range",
+                      "min_range",
                       "init",
                       "particles",
                       "least_per_hypothesis",
@@ -205,7 +207,14 @@ void readPolyloc(ReplayConfig& config) {
                       "carried",
                       "report_steps"});
   config.search_map = resolved(config.path, section.text("map", ""));
-  config.sensor_label = section.text("sensor", "");
+  config.scans.sensor_label = section.text("sensor", "");
+  if (!section.text("max_range", "").empty()) {
+    config.scans.readings.max_range = section.number("max_range", 0, 0, 1e6);
+  }
+  if (!section.text("min_range", "").empty()) {
+    config.scans.readings.min_range = section.number("min_range", 0, 0, 1e6);
+  }
+  config.scans.readings.check();
   namingSection("polyloc",
                 [&] { config.init = parseInit(section.text("init", toString(config.init))); });
   config.seeds.particles = section.count("particles", config.seeds.particles, 1, 100'000'000);

@@ -53,7 +53,7 @@ struct ReplayConfig {
 
   // [polyloc]
   std::string search_map;  ///< or empty: see polygonMapFor()
-  std::string sensor_label;
+  ScanFileOptions scans;   ///< sensor, max_range, min_range
   Init init = Init::polyloc;
   GlobalLocalizerParams search;
   ParticleSeederParams seeds;

@@ -3,6 +3,7 @@
 #include "../common/Cli.h"
 #include "../common/OutputFiles.h"
 #include "../common/Progress.h"
+#include "../common/scan_input.h"
 #include "FilterRun.h"
 #include "ReplayConfig.h"
 #include "replay_maps.h"
@@ -35,6 +36,7 @@ struct Options {
   std::string config, rawlog, init, truth, libraries, folder;
   std::uint64_t repetitions = 0;  // 0: as the ini says
   std::uint64_t seed = 1;
+  ScanFileOptions scans;  // readings: as the ini says where not given
 };
 
 void addOptions(CLI::App& cli, Options& options) {
@@ -43,6 +45,7 @@ void addOptions(CLI::App& cli, Options& options) {
       ->type_name("CONFIG.ini");
   addText(cli, "--rawlog", options.rawlog, "The rawlog [default: rawlog_file of the ini]")
       ->type_name("FILE");
+  addReadingOptions(cli, options.scans);
   addText(cli, "--init", options.init, "How the particles start: polyloc [default] or uniform")
       ->type_name("NAME")
       ->check([](const std::string& text) {
@@ -79,6 +82,10 @@ ReplayConfig loadConfig(const Program& program, const Options& options) {
     program.warn(options.config + ": section [" + section + "] is not read");
   }
   if (!options.rawlog.empty()) config.rawlog_file = options.rawlog;
+  const ReadingOptions& readings = options.scans.readings;
+  if (readings.max_range) config.scans.readings.max_range = readings.max_range;
+  if (readings.min_range) config.scans.readings.min_range = readings.min_range;
+  config.scans.strict = options.scans.strict;
   if (!options.truth.empty()) config.truth_file = options.truth;
   if (!options.init.empty()) config.init = parseInit(options.init);
   if (options.repetitions > 0) config.repetitions = options.repetitions;
@@ -127,8 +134,10 @@ int replayLog(const Program& program, const Options& options) {
   const ReplayConfig config = loadConfig(program, options);
   const auto seed = static_cast<std::uint32_t>(options.seed);
   mrpt::random::getRandomGenerator().randomize(seed);  // some motion models draw when composed
+  Notes notes;
   const std::vector<ReplayStep> steps =
-      loadReplayLog(config.rawlog_file, config.sensor_label, config.odometry);
+      loadReplayLog(config.rawlog_file, config.scans, config.odometry, &notes);
+  program.note(config.rawlog_file, notes);
   const Truth truth =
       config.truth_file.empty() ? Truth() : loadTruthOfSteps(config.truth_file, steps);
   const std::vector<std::size_t> replayed = replayedSteps(config, steps.size());

@@ -20,6 +20,7 @@ using namespace mrpt_polyloc::apps;
 
 struct Options {
   std::string map;
+  double scale = 1.0;
   std::string folder;
   std::uint64_t count = 0;
   std::uint64_t seed = 0;
@@ -31,6 +32,7 @@ struct Options {
 
 void addOptions(CLI::App& cli, Options& options) {
   addText(cli, "--map", options.map, kMapFormats)->required()->type_name("MAP");
+  addScaleOption(cli, options.scale);
   addCount(cli, "-n", options.count, 1, 1'000'000, "Number of scans")->required()->type_name("N");
   addCount(cli, "--seed", options.seed, 0, UINT64_MAX, "The same seed gives the same scans")
       ->required()
@@ -68,7 +70,7 @@ int simulate(const Program& program, Options& options) {
   options.params.occluders = options.occluders;
   options.params.fov = toRadians(options.fov_deg);
 
-  const PolygonMap map = loadMapWithWarnings(program, options.map).map;
+  const PolygonMap map = loadMapWithWarnings(program, options.map, options.scale).map;
   std::vector<StampedPose> truth;
   std::vector<mrpt::obs::CObservation2DRangeScan> observations;
   for (SimulatedScan& scan : simulateScans(map, options.params, options.count, options.seed)) {

@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/truth.h>
+#include <mrpt_polyloc/io/GzInputStream.h>
 
 #include <algorithm>
 #include <array>
@@ -30,17 +31,30 @@ std::vector<std::string_view> splitFields(std::string_view line) {
   return fields;
 }
 
-/// Calls `use(fields, place)` for every line of a file that holds more than a comment.
+/// Calls `use(fields, place)` for every line of a file, perhaps compressed, that holds more than a
+/// comment.
 template <class Use>
 void forEachLine(const std::string& path, Use use) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FormatError(path, "", "cannot be read");
-  std::string line;
-  for (std::size_t number = 1; std::getline(file, line); ++number) {
+  std::string line(4, '\0');
+  const auto useLine = [&](std::size_t number) {
     const std::string_view content = std::string_view(line).substr(0, line.find('#'));
     const std::vector<std::string_view> fields = splitFields(content);
     if (!fields.empty()) use(fields, "line " + std::to_string(number));
+  };
+  file.read(line.data(), static_cast<std::streamsize>(line.size()));
+  line.resize(static_cast<std::size_t>(file.gcount()));
+  if (isCompressed(line)) {
+    GzInputStream stream(path);
+    for (std::size_t number = 1; stream.readLine(line); ++number) useLine(number);
+    return;
   }
+  if (!file.bad()) {
+    file.clear();
+    file.seekg(0);
+  }
+  for (std::size_t number = 1; std::getline(file, line); ++number) useLine(number);
   if (file.bad()) throw FormatError(path, "", "cannot be read to its end");
 }
 

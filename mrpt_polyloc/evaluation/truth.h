@@ -17,10 +17,10 @@ struct StampedPose {
   mrpt::math::TPose2D pose_map_robot;
 };
 
-/// Reads a TUM trajectory: `stamp x y z qx qy qz qw` a line, `#` comments. The heading is the yaw
-/// of the quaternion.
-/// \throws FormatError naming file and line: missing file, wrong number of fields, a number that is
-/// not finite, a quaternion that is not of unit length (1e-2), no pose at all.
+/// Reads a TUM trajectory, plain or compressed by gzip or zstd: `stamp x y z qx qy qz qw` a line,
+/// `#` comments. The heading is the yaw of the quaternion. \throws FormatError naming file and
+/// line: missing file, wrong number of fields, a number that is not finite, a quaternion that is
+/// not of unit length (1e-2), no pose at all.
 std::vector<StampedPose> loadTum(const std::string& path);
 
 /// One TUM line per pose, stamps with nanoseconds, lengths with micrometres.

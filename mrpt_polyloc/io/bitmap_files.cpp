@@ -5,9 +5,9 @@
 
 namespace mrpt_polyloc {
 
-std::optional<OccupancyBitmap> loadBitmap(const std::string& path) {
+std::optional<OccupancyBitmap> loadBitmap(const std::string& path, Notes* notes) {
   const std::string extension = contentExtension(path);
-  if (extension == ".yaml" || extension == ".yml") return loadRosMap(path);
+  if (extension == ".yaml" || extension == ".yml") return loadRosMap(path, notes);
   if (extension == ".gridmap") return loadGridMap(path);
   if (extension == ".simplemap") return loadSimpleMap(path);
   return std::nullopt;

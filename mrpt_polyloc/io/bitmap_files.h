@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/notes.h>
 #include <mrpt_polyloc/geometry/OccupancyBitmap.h>
 
 #include <cstdint>
@@ -13,8 +14,9 @@ namespace mrpt_polyloc {
 constexpr std::int64_t kMaxBitmapCells = 400'000'000;
 
 /// The occupancy grid in a ROS map (.yaml, .yml) or an MRPT .gridmap or .simplemap, the latter two
-/// also with .gz behind; extensions in any case. None for any other extension.
+/// also with .gz or .zst behind; extensions in any case. None for any other extension.
+/// \param notes as in loadRosMap()
 /// \throws FormatError as loadRosMap(), loadGridMap() and loadSimpleMap().
-std::optional<OccupancyBitmap> loadBitmap(const std::string& path);
+std::optional<OccupancyBitmap> loadBitmap(const std::string& path, Notes* notes = nullptr);
 
 }  // namespace mrpt_polyloc

@@ -3,11 +3,12 @@
 #include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/carmen.h>
 #include <mrpt_polyloc/io/carmen_line.h>
-#include <mrpt_polyloc/io/readings.h>
 #include <mrpt_polyloc/io/sensor_labels.h>
+#include <mrpt_polyloc/io/sensor_survey.h>
 
 #include <mrpt/math/TPose2D.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -18,17 +19,17 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kDefaultMaxRange = 80.0;  // [m]
-constexpr double kMaxSensorOffset = 5.0;   // [m]
+constexpr double kMaxSensorOffset = 5.0;  // [m]
 
-/// What the log's PARAM lines say of its front laser.
-struct FrontLaser {
-  std::optional<double> resolution;  ///< [rad]
+/// What the log's PARAM lines say of its lasers.
+struct Lasers {
+  std::optional<double> resolution;  ///< of the front laser [rad]
   std::optional<double> robot_max;   ///< robot_front_laser_max [m]
   std::optional<double> laser_max;   ///< laser_front_max_range [m]
-  double offset = 0.0;               ///< [m]
+  double front_offset = 0.0;         ///< [m]
+  double rear_offset = 0.0;          ///< [m]
 
-  double maxRange() const { return robot_max.value_or(laser_max.value_or(kDefaultMaxRange)); }
+  double maxRange() const { return robot_max.value_or(laser_max.value_or(0.0)); }
 };
 
 double positive(const CarmenLine& line, const std::string& what, double value) {
@@ -36,27 +37,26 @@ double positive(const CarmenLine& line, const std::string& what, double value) {
   return value;
 }
 
-/// Collects the PARAM lines of the whole log.
-FrontLaser readFrontLaser(const std::string& path) {
-  FrontLaser laser;
-  GzInputStream stream(path);
-  std::string text;
-  for (std::size_t number = 1; stream.readLine(text); ++number) {
-    CarmenLine line(path, number, text);
-    if (line.keyword() != "PARAM" || line.fieldCount() < 2) continue;
-    const std::string name = line.word("name");
-    if (name == "laser_front_laser_resolution") {
-      laser.resolution = kDegree * positive(line, name, line.number(name));
-    } else if (name == "robot_front_laser_max") {
-      laser.robot_max = positive(line, name, line.number(name));
-    } else if (name == "laser_front_max_range") {
-      laser.laser_max = positive(line, name, line.number(name));
-    } else if (name == "robot_frontlaser_offset") {
-      laser.offset = line.finite(name);
-      if (std::abs(laser.offset) > kMaxSensorOffset) line.fail(name + " is above 5 m");
-    }
+double readOffset(CarmenLine& line, const std::string& what) {
+  const double offset = line.finite(what);
+  if (std::abs(offset) > kMaxSensorOffset) line.fail(what + " is above 5 m");
+  return offset;
+}
+
+void readParam(CarmenLine& line, Lasers& lasers) {
+  if (line.fieldCount() < 2) return;
+  const std::string name = line.word("name");
+  if (name == "laser_front_laser_resolution") {
+    lasers.resolution = kDegree * positive(line, name, line.number(name));
+  } else if (name == "robot_front_laser_max") {
+    lasers.robot_max = positive(line, name, line.number(name));
+  } else if (name == "laser_front_max_range") {
+    lasers.laser_max = positive(line, name, line.number(name));
+  } else if (name == "robot_frontlaser_offset") {
+    lasers.front_offset = readOffset(line, name);
+  } else if (name == "robot_rearlaser_offset") {
+    lasers.rear_offset = readOffset(line, name);
   }
-  return laser;
 }
 
 struct BeamAngles {
@@ -65,13 +65,13 @@ struct BeamAngles {
 };
 
 /// Where the beams of an FLASER line look; the rules are in the header.
-BeamAngles flaserAngles(const CarmenLine& line, std::size_t count, const FrontLaser& laser,
+BeamAngles flaserAngles(const CarmenLine& line, std::size_t count, const Lasers& lasers,
                         const std::optional<double>& fov) {
   if (count < 2) return {};
   const auto n = static_cast<double>(count);
   if (fov) return {-0.5 * *fov, *fov / (n - 1.0)};
-  if (laser.resolution) {
-    const double step = *laser.resolution;
+  if (lasers.resolution) {
+    const double step = *lasers.resolution;
     const double tolerance = 0.01 * step;
     const double span = (n - 1.0) * step;
     if (span >= 2 * kPi) line.fail("its beams at laser_front_laser_resolution exceed a full turn");
@@ -80,13 +80,14 @@ BeamAngles flaserAngles(const CarmenLine& line, std::size_t count, const FrontLa
   }
   if (count == 180 || count == 181) return {-0.5 * kPi, kDegree};
   if (count == 360 || count == 361) return {-0.5 * kPi, 0.5 * kDegree};
-  line.fail("FLASER with " + std::to_string(count) +
+  line.fail(line.keyword() + " with " + std::to_string(count) +
             " beams: their field of view is not known, give it by --laser-fov");
 }
 
 /// Fields of poses and times behind the lists of numbers.
 constexpr std::size_t kFlaserTail = 9;
 constexpr std::size_t kRobotLaserTail = 14;
+constexpr std::size_t kRawLaserTail = 3;
 
 std::vector<double> readRanges(CarmenLine& line) {
   std::vector<double> ranges(line.count("number of readings"));
@@ -109,87 +110,190 @@ double readStamp(CarmenLine& line) {
   return ipc != 0.0 ? ipc : logger;
 }
 
-RangeScan makeScan(const std::vector<double>& ranges, const BeamAngles& angles, double max_range,
-                   const mrpt::math::TPoint2D& sensor, double stamp, const std::string& label) {
-  std::vector<Beam> beams(ranges.size());
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    beams[i] = readingToBeam(angles.first + static_cast<double>(i) * angles.step, ranges[i], true,
-                             max_range);
-  }
-  return RangeScan(std::move(beams), sensor, stamp, label);
+/// Where a laser is whose place the lines do not say: ahead, or behind and looking back.
+void place(bool rear, const Lasers& lasers, LoggedScan& scan) {
+  scan.sensor = {rear ? lasers.rear_offset : lasers.front_offset, 0.0};
+  scan.yaw = rear ? kPi : 0.0;
 }
 
-RangeScan readFlaser(CarmenLine& line, const FrontLaser& laser, const std::optional<double>& fov) {
-  const std::vector<double> ranges = readRanges(line);
+/// A line FLASER or RLASER: its readings and its time. The rest is for finishFlaser(), for PARAM
+/// lines count that stand behind it.
+LoggedScan readFlaser(CarmenLine& line) {
+  LoggedScan scan;
+  scan.ranges = readRanges(line);
   line.requireFields(kFlaserTail);
   readPose(line, "laser pose");
   readPose(line, "odometry pose");
-  const double stamp = readStamp(line);
-  return makeScan(ranges, flaserAngles(line, ranges.size(), laser, fov), laser.maxRange(),
-                  {laser.offset, 0.0}, stamp, line.keyword());
+  scan.stamp = readStamp(line);
+  return scan;
 }
 
-RangeScan readRobotLaser(CarmenLine& line) {
+void finishFlaser(const CarmenLine& line, const Lasers& lasers, const std::optional<double>& fov,
+                  LoggedScan& scan) {
+  const BeamAngles angles = flaserAngles(line, scan.ranges.size(), lasers, fov);
+  scan.first = angles.first;
+  scan.step = angles.step;
+  scan.max_range = lasers.maxRange();
+  place(scan.label.front() == 'R', lasers, scan);
+}
+
+/// What the lines of newer logs say of beams and readings alike, up to the remissions.
+LoggedScan readNewerReadings(CarmenLine& line, std::size_t tail) {
+  LoggedScan scan;
   line.finite("laser type");
-  const double start = line.finite("start angle");
+  scan.first = line.finite("start angle");
   const double fov = line.finite("field of view");
-  double step = line.finite("angular resolution");
-  const double stated_max = line.number("maximum range");
+  scan.step = line.finite("angular resolution");
+  scan.max_range = line.number("maximum range");
   line.finite("accuracy");
   line.finite("remission mode");
-  const std::vector<double> ranges = readRanges(line);
+  scan.ranges = readRanges(line);
   const std::size_t remissions = line.count("number of remissions");
-  line.requireFields(remissions + kRobotLaserTail);
+  line.requireFields(remissions + tail);
   for (std::size_t i = 0; i < remissions; ++i) line.number("remission", i);
+  const std::size_t count = scan.ranges.size();
+  if (scan.step == 0.0 && count > 1) scan.step = fov / static_cast<double>(count - 1);
+  if (scan.step == 0.0 && count > 1) line.fail("angular resolution and field of view are 0");
+  return scan;
+}
+
+LoggedScan readRobotLaser(CarmenLine& line) {
+  LoggedScan scan = readNewerReadings(line, kRobotLaserTail);
   const TPose2D laser = readPose(line, "laser pose"), robot = readPose(line, "robot pose");
   for (const char* what :
        {"laser tv", "laser rv", "forward safety distance", "side safety distance", "turn axis"}) {
     line.number(what);
   }
-  const double stamp = readStamp(line);
-
-  if (step == 0.0 && ranges.size() > 1) step = fov / static_cast<double>(ranges.size() - 1);
-  if (step == 0.0 && ranges.size() > 1) line.fail("angular resolution and field of view are 0");
+  scan.stamp = readStamp(line);
   const double dx = laser.x - robot.x, dy = laser.y - robot.y;
   if (std::hypot(dx, dy) > kMaxSensorOffset) {
     line.fail("the laser is more than 5 m from its robot");
   }
   const double c = std::cos(robot.phi), s = std::sin(robot.phi);
-  const double max_range =
-      std::isfinite(stated_max) && stated_max > 0.0 ? stated_max : kDefaultMaxRange;
-  return makeScan(ranges, {start + std::remainder(laser.phi - robot.phi, 2 * kPi), step}, max_range,
-                  {c * dx + s * dy, c * dy - s * dx}, stamp, line.keyword());
+  scan.sensor = {c * dx + s * dy, c * dy - s * dx};
+  scan.yaw = std::remainder(laser.phi - robot.phi, 2 * kPi);
+  return scan;
+}
+
+LoggedScan readRawLaser(CarmenLine& line) {
+  LoggedScan scan = readNewerReadings(line, kRawLaserTail);
+  scan.stamp = readStamp(line);
+  return scan;
+}
+
+enum class Kind { none, flaser, raw_laser, robot_laser };
+
+Kind kindOf(const std::string& keyword) {
+  if (keyword == "FLASER" || keyword == "RLASER") return Kind::flaser;
+  if (keyword == "RAWLASER1" || keyword == "RAWLASER2") return Kind::raw_laser;
+  if (keyword == "ROBOTLASER1" || keyword == "ROBOTLASER2") return Kind::robot_laser;
+  return Kind::none;
+}
+
+/// Lines that tell of the front laser what the others, if they are there, repeat.
+bool isFirstChoice(const std::string& keyword) {
+  return keyword == "FLASER" || keyword == "ROBOTLASER1";
+}
+
+/// All that is read of a log.
+class Reader {
+ public:
+  Reader(const std::string& path, const ScanFileOptions& options)
+      : path_(path), options_(options) {}
+
+  std::vector<LoggedScan> read(Notes* notes) {
+    using AtCut = GzInputStream::AtCut;
+    GzInputStream stream(path_, options_.strict ? AtCut::refuse : AtCut::end);
+    std::string cut = stream.cut(), text;
+    for (std::size_t number = 1; stream.readLine(text); ++number) {
+      CarmenLine line(path_, number, text);
+      try {
+        add(line, number);
+      } catch (const FormatError&) {
+        // Only the end of a file can be missing.
+        if (options_.strict || stream.lineHadEnd() || scans_.empty()) throw;
+        if (cut.empty()) cut = "line " + std::to_string(number) + ": it ends inside the line";
+      }
+    }
+    if (!cut.empty()) {
+      addNote(notes, "it is cut short (" + cut + "): the " + std::to_string(scans_.size()) +
+                         " scans before that are used (--strict refuses it)");
+    }
+    for (std::size_t i = 0; i < scans_.size(); ++i) finish(numbers_[i], scans_[i]);
+    return std::move(scans_);
+  }
+
+ private:
+  bool isWanted(const std::string& keyword) {
+    if (!options_.sensor_label.empty() && keyword == options_.sensor_label) return true;
+    if (isFirstChoice(keyword)) {
+      has_first_choice_ = true;
+      return true;
+    }
+    return !has_first_choice_;
+  }
+
+  void add(CarmenLine& line, std::size_t number) {
+    const std::string& keyword = line.keyword();
+    if (keyword == "PARAM") return readParam(line, lasers_);
+    const Kind kind = kindOf(keyword);
+    if (kind == Kind::none || !isWanted(keyword)) return;
+    LoggedScan scan = kind == Kind::flaser      ? readFlaser(line)
+                      : kind == Kind::raw_laser ? readRawLaser(line)
+                                                : readRobotLaser(line);
+    scan.label = keyword;
+    scan.place = "line " + std::to_string(number);
+    scans_.push_back(std::move(scan));
+    numbers_.push_back(number);
+  }
+
+  /// Takes in what the PARAM lines of the whole log say.
+  void finish(std::size_t number, LoggedScan& scan) const {
+    const Kind kind = kindOf(scan.label);
+    if (kind == Kind::flaser) {
+      finishFlaser(CarmenLine(path_, number, scan.label), lasers_, options_.laser_fov, scan);
+    } else if (kind == Kind::raw_laser) {
+      place(scan.label.back() == '2', lasers_, scan);
+    }
+  }
+
+  const std::string& path_;
+  const ScanFileOptions& options_;
+  Lasers lasers_;
+  bool has_first_choice_ = false;
+  std::vector<LoggedScan> scans_;
+  std::vector<std::size_t> numbers_;  ///< of their lines
+};
+
+/// Without those that only repeat others, unless they are asked for.
+std::vector<LoggedScan> withoutRepetitions(std::vector<LoggedScan> scans,
+                                           const std::string& wanted) {
+  const auto first = [](const LoggedScan& scan) { return isFirstChoice(scan.label); };
+  if (std::none_of(scans.begin(), scans.end(), first)) return scans;
+  scans.erase(
+      std::remove_if(scans.begin(), scans.end(),
+                     [&](const LoggedScan& scan) { return !first(scan) && scan.label != wanted; }),
+      scans.end());
+  return scans;
 }
 
 }  // namespace
 
-std::vector<RangeScan> loadCarmen(const std::string& path, const ScanFileOptions& options) {
+std::vector<RangeScan> loadCarmen(const std::string& path, const ScanFileOptions& options,
+                                  Notes* notes) {
   const auto& fov = options.laser_fov;
   if (fov && !(*fov > 0.0 && *fov <= 2 * kPi + 1e-9)) {
     throw InvalidParamsError("laser_fov is " + std::to_string(*fov) + ", not in (0, 2 pi]");
   }
-  const FrontLaser laser = readFrontLaser(path);
-  std::vector<RangeScan> scans;
+  std::vector<LoggedScan> scans =
+      withoutRepetitions(Reader(path, options).read(notes), options.sensor_label);
   std::vector<std::string> labels;
-  GzInputStream stream(path);
-  std::string text;
-  for (std::size_t number = 1; stream.readLine(text); ++number) {
-    CarmenLine line(path, number, text);
-    if (line.keyword() == "FLASER") {
-      scans.push_back(readFlaser(line, laser, fov));
-    } else if (line.keyword() == "ROBOTLASER1") {
-      scans.push_back(readRobotLaser(line));
-    } else {
-      continue;
-    }
-    labels.push_back(line.keyword());
-  }
-
-  std::vector<RangeScan> selected;
+  for (const LoggedScan& scan : scans) labels.push_back(scan.label);
+  std::vector<LoggedScan> selected;
   for (const std::size_t i : selectSensor(path, labels, options.sensor_label)) {
     selected.push_back(std::move(scans[i]));
   }
-  return selected;
+  return toRangeScans(path, std::move(selected), options.readings, notes);
 }
 
 }  // namespace mrpt_polyloc

@@ -4,8 +4,9 @@
 
 namespace mrpt_polyloc {
 
-/// The front laser's scans of a CARMEN log, plain or gzipped, in file order: lines FLASER and
-/// ROBOTLASER1, whose keyword is the sensor's label. Other lines are passed over.
+/// The scans of a CARMEN log, plain or compressed, in file order: lines FLASER and ROBOTLASER1,
+/// whose keyword is the sensor's label. If there are none, or if their label is asked for:
+/// RAWLASER1 and 2, RLASER, ROBOTLASER2. Other lines are passed over.
 ///
 /// FLASER says only the ranges, so where its beams look is told by, in this order:
 /// `options.laser_fov`, spread over the beams and straight ahead in the middle;
@@ -14,19 +15,23 @@ namespace mrpt_polyloc {
 /// 180 or 181 beams: 1 deg, 360 or 361: 0.5 deg, first beam at -90 deg; one beam: straight ahead.
 /// The laser is `PARAM robot_frontlaser_offset` [m] ahead of the robot's origin (0 if not given):
 /// the two poses in the line tell nothing of it, for corrected logs change one or both. Its maximum
-/// range is `PARAM robot_front_laser_max`, else `laser_front_max_range` [m], else 80 m, below the
-/// 81.83 to 81.91 m by which a SICK laser says that nothing came back.
+/// range is `PARAM robot_front_laser_max`, else `laser_front_max_range` [m]. RLASER is read alike,
+/// `PARAM robot_rearlaser_offset` ahead (below 0: behind) and looking back.
 /// Of a PARAM that occurs more than once the last line counts, for the whole log.
 ///
-/// ROBOTLASER1 says its angles and its maximum range (80 m if that is not positive); its place on
-/// the robot is the laser's pose seen from the robot's.
+/// ROBOTLASER1 and 2 say their angles and their maximum range; the place on the robot is the
+/// laser's pose seen from the robot's. RAWLASER1 and 2 say the same of their beams, and are placed
+/// as FLASER and RLASER.
 ///
-/// Readings are taken as readingToBeam() says. Stamps: the message's own (ipc) time, or the
-/// logger's where that is 0. \throws FormatError naming file and line: a line with too few or too
-/// many fields, something that is not a number, an FLASER line of another number of beams without a
-/// field of view (the message names --laser-fov), a laser more than 5 m from its robot (the log was
-/// changed); as selectSensor() for the labels; as GzInputStream for the file itself.
-/// InvalidParamsError if `options.laser_fov` is not in (0, 2 pi].
-std::vector<RangeScan> loadCarmen(const std::string& path, const ScanFileOptions& options = {});
+/// Readings are taken as readingToBeam() says; the maximum range that is not stated, or wrong, is
+/// found from the whole log (see surveySensor()). A log that ends inside a line or its compressed
+/// data is read up to there, with a note (`options.strict` refuses it). Stamps: the message's own
+/// (ipc) time, or the logger's where that is 0. \throws FormatError naming file and line: a line
+/// with too few or too many fields, something that is not a number, an FLASER line of another
+/// number of beams without a field of view (the message names --laser-fov), a laser more than 5 m
+/// from its robot (the log was changed); as selectSensor() for the labels; as GzInputStream for the
+/// file itself. InvalidParamsError if `options.laser_fov` is not in (0, 2 pi].
+std::vector<RangeScan> loadCarmen(const std::string& path, const ScanFileOptions& options = {},
+                                  Notes* notes = nullptr);
 
 }  // namespace mrpt_polyloc

@@ -19,7 +19,7 @@ std::string lowerExtension(const std::filesystem::path& path) {
 std::string contentExtension(const std::string& path) {
   const std::filesystem::path name = std::filesystem::path(path).filename();
   const std::string extension = lowerExtension(name);
-  return extension == ".gz" ? lowerExtension(name.stem()) : extension;
+  return extension == ".gz" || extension == ".zst" ? lowerExtension(name.stem()) : extension;
 }
 
 }  // namespace mrpt_polyloc

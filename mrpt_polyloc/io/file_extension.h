@@ -4,8 +4,8 @@
 
 namespace mrpt_polyloc {
 
-/// The extension of a file's name in lower case, without a .gz behind it: ".log" for "A.Log.GZ";
-/// empty if there is none.
+/// The extension of a file's name in lower case, without a .gz or .zst behind it: ".log" for
+/// "A.Log.GZ"; empty if there is none.
 std::string contentExtension(const std::string& path);
 
 }  // namespace mrpt_polyloc

@@ -3,165 +3,96 @@
 #include <mrpt_polyloc/io/flat_yaml.h>
 
 #include <algorithm>
-#include <cstddef>
-#include <utility>
+#include <sstream>
+#include <yaml-cpp/yaml.h>
 
 namespace mrpt_polyloc {
 
 namespace {
 
-constexpr const char* kBlank = " \t";
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(kBlank);
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+[[noreturn]] void fail(const std::string& path, int line, const std::string& reason) {
+  throw FormatError(path, "line " + std::to_string(line), reason);
 }
 
-class Parser {
- public:
-  explicit Parser(const std::string& path) : path_(path), stream_(path) {}
+int lineOf(const YAML::Mark& mark) {
+  return mark.line + 1;
+}
 
-  std::map<std::string, FlatYamlValue> parse() {
-    std::string line;
-    while (nextLine(line)) {
-      const std::string text = trimmed(line);
-      if (text.empty() || text == "---") continue;
-      if (text == "...") break;
-      if (text == "-" || text.rfind("- ", 0) == 0) {
-        addListItem(trimmed(text.substr(1)));
-      } else {
-        addKey(line);
-      }
+/// yaml-cpp takes some binary files for text.
+void requireText(const std::string& path, const std::string& text) {
+  int line = 1;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 && c != '\t' && c != '\n' && c != '\r') {
+      fail(path, line, "a control character: this is not a YAML text");
     }
-    return std::move(values_);
+    line += c == '\n' ? 1 : 0;
   }
+}
 
- private:
-  [[noreturn]] void fail(const std::string& reason) const {
-    throw FormatError(path_, "line " + std::to_string(line_), reason);
+std::string lineText(const std::string& text, int line) {
+  std::istringstream lines(text);
+  std::string found;
+  for (int i = 0; i < line; ++i) std::getline(lines, found);
+  return found;
+}
+
+/// What yaml-cpp lets pass, and map files do not mean: a key without a colon, and a quotation that
+/// runs to the end of the file.
+void requireWhole(const std::string& path, const std::string& text, const YAML::Node& key,
+                  const YAML::Node& value) {
+  const int line = lineOf(key.Mark());
+  if (value.IsNull() && lineText(text, line).find(':') == std::string::npos) {
+    fail(path, line, "'KEY: VALUE' is expected");
   }
-
-  /// The next line, its comment taken off.
-  bool nextLine(std::string& line) {
-    if (!stream_.readLine(line)) return false;
-    ++line_;
-    if (line_ == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0) line.erase(0, 3);  // byte order mark
-    char quote = '\0';
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      const char c = line[i];
-      const auto byte = static_cast<unsigned char>(c);
-      if (byte < 0x20 && c != '\t') fail("a control character: this is not a YAML text");
-      if (quote != '\0') {
-        if (c == '\\' && quote == '"')
-          ++i;
-        else if (c == quote)
-          quote = '\0';
-      } else if (startsToken(line, i) && (c == '"' || c == '\'')) {
-        quote = c;
-      } else if (c == '#' && (i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t')) {
-        line.resize(i);
-        break;
-      }
-    }
-    if (quote != '\0') fail("a quotation without an end");
-    return true;
+  if (!value.IsScalar() || value.Mark().pos < 0) return;
+  const auto start = static_cast<std::size_t>(value.Mark().pos);
+  if (start >= text.size() || (text[start] != '"' && text[start] != '\'')) return;
+  if (text.find(text[start], start + 1) == std::string::npos) {
+    fail(path, line, "a quotation without an end");
   }
+}
 
-  /// Whether a quotation mark at `i` opens a quoted scalar; inside a plain one it is a character.
-  static bool startsToken(const std::string& line, std::size_t i) {
-    const auto before = i == 0 ? std::string::npos : line.find_last_not_of(kBlank, i - 1);
-    return before == std::string::npos ||
-           std::string(":[,-").find(line[before]) != std::string::npos;
-  }
-
-  void addKey(const std::string& line) {
-    if (line.front() == ' ' || line.front() == '\t') {
-      fail("an indented line: only keys with a value or a list are expected here");
-    }
-    std::size_t colon = line.front() == '"' || line.front() == '\''
-                            ? line.find(':', line.find(line.front(), 1))
-                            : line.find(':');
-    while (colon != std::string::npos && colon + 1 < line.size() && line[colon + 1] != ' ' &&
-           line[colon + 1] != '\t') {
-      colon = line.find(':', colon + 1);
-    }
-    if (colon == std::string::npos) fail("'KEY: VALUE' is expected");
-    const int key_line = line_;
-    const std::string key = unquoted(trimmed(line.substr(0, colon)));
-    const std::string text = trimmed(line.substr(colon + 1));
-    FlatYamlValue value;
-    value.line = key_line;
-    list_complete_ = !text.empty() && text.front() == '[';
-    if (list_complete_) {
-      value.is_list = true;
-      value.scalars = flowList(text);
-    } else if (!text.empty()) {
-      if (std::string("{&*!|>%@`").find(text.front()) != std::string::npos) {
-        fail("the value of '" + key + "' is neither a scalar nor a list of scalars");
-      }
-      value.scalars.push_back(unquoted(text));
-    }
-    last_key_ = key;
-    values_[key] = std::move(value);
-  }
-
-  void addListItem(const std::string& text) {
-    const auto found = values_.find(last_key_);
-    if (found == values_.end()) fail("a list item without a key before it");
-    FlatYamlValue& value = found->second;
-    if (!value.is_list && !value.scalars.empty()) fail("a list item behind a value");
-    if (list_complete_) fail("a list item behind a complete list");
+FlatYamlValue valueOf(const YAML::Node& node) {
+  FlatYamlValue value;
+  if (node.IsScalar()) {
+    value.scalars.push_back(node.Scalar());
+  } else if (node.IsSequence()) {
     value.is_list = true;
-    value.scalars.push_back(unquoted(text));
-  }
-
-  /// The scalars of `[a, b]`, whose end may stand on a later line.
-  std::vector<std::string> flowList(std::string text) {
-    std::string line;
-    while (text.find(']') == std::string::npos) {
-      if (!nextLine(line)) fail("the file ends inside a list (']' is missing)");
-      text += " " + line;
+    for (const YAML::Node& item : node) {
+      value.is_nested |= item.IsMap() || item.IsSequence();
+      value.scalars.push_back(item.IsScalar() ? item.Scalar() : "");
     }
-    const auto end = text.find(']');
-    if (!trimmed(text.substr(end + 1)).empty()) fail("something follows the list");
-    std::vector<std::string> scalars;
-    const std::string inside = trimmed(text.substr(1, end - 1));
-    for (std::size_t start = 0; start < inside.size();) {
-      const auto comma = std::min(inside.find(',', start), inside.size());
-      scalars.push_back(unquoted(trimmed(inside.substr(start, comma - start))));
-      if (scalars.back().find_first_of("[{") != std::string::npos) fail("a list inside a list");
-      start = comma + 1;
-    }
-    return scalars;
+  } else {
+    value.is_nested = node.IsMap();
   }
-
-  std::string unquoted(const std::string& text) const {
-    if (text.empty() || (text.front() != '"' && text.front() != '\'')) return text;
-    const char quote = text.front();
-    if (text.size() < 2 || text.back() != quote) fail("something follows a quotation");
-    std::string result;
-    for (std::size_t i = 1; i + 1 < text.size(); ++i) {
-      const bool escaped = (quote == '"' && text[i] == '\\') ||
-                           (quote == '\'' && text[i] == '\'' && text[i + 1] == '\'');
-      if (escaped) ++i;
-      result += text[i];
-    }
-    return result;
-  }
-
-  const std::string& path_;
-  GzInputStream stream_;
-  int line_ = 0;
-  std::string last_key_;
-  bool list_complete_ = false;  ///< whether the value of the last key was a list in brackets
-  std::map<std::string, FlatYamlValue> values_;
-};
+  return value;
+}
 
 }  // namespace
 
 std::map<std::string, FlatYamlValue> loadFlatYaml(const std::string& path) {
-  return Parser(path).parse();
+  const std::string text = GzInputStream(path).readAll();
+  requireText(path, text);
+  YAML::Node root;
+  try {
+    root = YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    const auto lines = 1 + static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+    fail(path, std::min(lineOf(error.mark), lines), "not a YAML text: " + error.msg);
+  }
+  if (!root.IsMap()) {
+    fail(path, std::max(1, lineOf(root.Mark())), "keys are expected, each as 'KEY: VALUE'");
+  }
+  std::map<std::string, FlatYamlValue> values;
+  for (const auto& entry : root) {
+    if (!entry.first.IsScalar()) continue;
+    requireWhole(path, text, entry.first, entry.second);
+    FlatYamlValue value = valueOf(entry.second);
+    value.line = lineOf(entry.first.Mark());
+    values[entry.first.Scalar()] = std::move(value);
+  }
+  return values;
 }
 
 }  // namespace mrpt_polyloc

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace mrpt_polyloc {
@@ -150,17 +151,111 @@ void openAlong(const JsonAt& line, BorderIndex& border) {
 
 enum class FeatureKind { free, open, wall };
 
-FeatureKind kindOf(const JsonAt& feature) {
+constexpr const char* kExample =
+    "; a map looks like {\"type\": \"Feature\", \"properties\": {\"kind\": \"free\"}, "
+    "\"geometry\": "
+    "{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [10, 0], [10, 8], [0, 8], [0, 0]]]}}, in "
+    "metres";
+
+/// None if the feature does not say it.
+std::optional<FeatureKind> kindOf(const JsonAt& feature) {
   if (feature.member("type").string() != "Feature") {
     feature.member("type").fail("expected \"Feature\"");
   }
-  const JsonAt kind = feature.member("properties").member("kind");
+  if (!feature.has("properties")) return std::nullopt;
+  const JsonAt properties = feature.member("properties");
+  if (properties.isNull() || !properties.has("kind")) return std::nullopt;
+  const JsonAt kind = properties.member("kind");
   const std::string name = kind.string();
   if (name == "free") return FeatureKind::free;
   if (name == "open") return FeatureKind::open;
   if (name == "wall") return FeatureKind::wall;
   kind.fail("unknown kind \"" + name + "\", expected \"free\", \"open\" or \"wall\"");
 }
+
+/// Reads features and geometries into a map.
+class Reader {
+ public:
+  void readRoot(const JsonAt& root) {
+    const std::string type = root.member("type").string();
+    if (type == "FeatureCollection") {
+      const JsonAt features = root.member("features");
+      for (std::size_t i = 0; i < features.array().size(); ++i) readFeature(features.element(i));
+    } else if (type == "Feature") {
+      readFeature(root);
+    } else if (isGeometryOfMap(type)) {
+      readUnsaid(root);
+    } else {
+      root.member("type").fail("\"" + type + "\" is not \"FeatureCollection\"" + kExample);
+    }
+  }
+
+  /// How many geometries were of no use.
+  std::size_t passedOver() const { return passed_over_; }
+
+  RawMap finish(Notes* notes) {
+    BorderIndex border(map_);
+    for (const JsonAt& geometry : open_geometries_) {
+      forEachOf(geometry, "LineString", [&](const JsonAt& line) { openAlong(line, border); });
+    }
+    if (unsaid_polygons_ + passed_over_ > 0) {
+      addNote(notes, "features without the property \"kind\": " + std::to_string(unsaid_polygons_) +
+                         " polygons are taken for free space, " + std::to_string(passed_over_) +
+                         " other geometries are passed over");
+    }
+    return std::move(map_);
+  }
+
+ private:
+  static bool isGeometryOfMap(const std::string& type) {
+    return type == "Polygon" || type == "MultiPolygon" || type == "GeometryCollection";
+  }
+
+  void readFree(const JsonAt& geometry) {
+    forEachOf(geometry, "Polygon",
+              [&](const JsonAt& rings) { map_.polygons.push_back(readPolygon(rings)); });
+  }
+
+  void readFeature(const JsonAt& feature) {
+    const std::optional<FeatureKind> kind = kindOf(feature);
+    const JsonAt geometry = feature.member("geometry");
+    if (geometry.isNull()) return;  // RFC 7946: it has no place
+    if (!kind) {
+      readUnsaid(geometry);
+    } else if (*kind == FeatureKind::free) {
+      readFree(geometry);
+    } else if (*kind == FeatureKind::wall) {
+      forEachOf(geometry, "LineString",
+                [&](const JsonAt& line) { map_.walls_beyond.push_back(readLine(line)); });
+    } else {
+      open_geometries_.push_back(geometry);
+    }
+  }
+
+  /// A geometry of which nothing is said.
+  void readUnsaid(const JsonAt& geometry, int nesting = 0) {
+    const std::string type = geometry.member("type").string();
+    if (type == "GeometryCollection") {
+      constexpr int kMostNested = 100;
+      if (nesting > kMostNested) geometry.fail("more than 100 collections inside one another");
+      const JsonAt members = geometry.member("geometries");
+      for (std::size_t i = 0; i < members.array().size(); ++i) {
+        readUnsaid(members.element(i), nesting + 1);
+      }
+    } else if (isGeometryOfMap(type)) {
+      const std::size_t before = map_.polygons.size();
+      readFree(geometry);
+      unsaid_polygons_ += map_.polygons.size() - before;
+    } else {
+      ++passed_over_;
+    }
+  }
+
+  RawMap map_;
+  std::vector<JsonAt> open_geometries_;
+  std::size_t unsaid_polygons_ = 0;
+  std::size_t passed_over_ = 0;
+};
 
 void appendPoint(std::string& out, const TPoint2D& p) {
   out += '[';
@@ -213,32 +308,14 @@ void appendLines(std::string& out, const char* kind, const std::vector<Polyline>
 
 }  // namespace
 
-RawMap parseGeoJson(const std::string& text, const std::string& file) {
+RawMap parseGeoJson(const std::string& text, const std::string& file, Notes* notes) {
   const nlohmann::json document = parseJson(text, file);
   const JsonAt root(document, "", file);
-  if (root.member("type").string() != "FeatureCollection") {
-    root.member("type").fail("expected \"FeatureCollection\"");
-  }
-  const JsonAt features = root.member("features");
-  RawMap map;
-  std::vector<JsonAt> open_geometries;
-  for (std::size_t i = 0; i < features.array().size(); ++i) {
-    const JsonAt feature = features.element(i);
-    const FeatureKind kind = kindOf(feature);
-    const JsonAt geometry = feature.member("geometry");
-    if (kind == FeatureKind::free) {
-      forEachOf(geometry, "Polygon",
-                [&](const JsonAt& rings) { map.polygons.push_back(readPolygon(rings)); });
-    } else if (kind == FeatureKind::wall) {
-      forEachOf(geometry, "LineString",
-                [&](const JsonAt& line) { map.walls_beyond.push_back(readLine(line)); });
-    } else {
-      open_geometries.push_back(geometry);
-    }
-  }
-  BorderIndex border(map);
-  for (const JsonAt& geometry : open_geometries) {
-    forEachOf(geometry, "LineString", [&](const JsonAt& line) { openAlong(line, border); });
+  Reader reader;
+  reader.readRoot(root);
+  RawMap map = reader.finish(notes);
+  if (map.polygons.empty() && reader.passedOver() > 0) {
+    root.fail(std::string("it holds no polygon") + kExample);
   }
   return map;
 }

@@ -18,12 +18,21 @@ struct GrayImage {
   std::vector<Opacity> opacity;       ///< empty if the image has no alpha channel
 };
 
-/// Reads a PGM file, plain (P2) or binary (P5), up to 65535 levels, with comments.
-/// \throws FormatError naming the file and what is wrong or missing.
-GrayImage loadPgm(const std::string& path);
+/// Reads an image, whose kind is told by its first bytes, whatever its name: PGM or PPM, PNG, and
+/// through MRPT BMP, JPEG and TIFF, of which colours are taken by their luminance.
+/// \throws FormatError naming the file and what is wrong or missing, or that its kind is not known.
+GrayImage loadImage(const std::string& path);
 
-/// Reads a PNG file of any colour type.
+/// Reads a netpbm image of bytes: PGM, plain (P2) or binary (P5), PPM (P3, P6), up to 65535 levels,
+/// with comments.
+/// \param path of the file, for messages
 /// \throws FormatError naming the file and what is wrong or missing.
-GrayImage loadPng(const std::string& path);
+GrayImage decodePgm(const std::string& path, const std::string& data);
+
+/// Reads a PNG image of any colour type, its levels as they are stored: map_server's images mean
+/// levels, not light, so gamma and colour profiles do not matter.
+/// \param path of the file, for messages
+/// \throws FormatError naming the file and what is wrong or missing.
+GrayImage decodePng(const std::string& path, const std::string& data);
 
 }  // namespace mrpt_polyloc

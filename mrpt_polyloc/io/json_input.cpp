@@ -55,7 +55,7 @@ std::string JsonAt::string() const {
 
 TPoint2D JsonAt::point() const {
   if (!value_.is_array()) fail("expected a position [x, y]");
-  if (value_.size() != 2) {
+  if (value_.size() < 2) {
     fail("a position of " + std::to_string(value_.size()) + " coordinates, expected [x, y]");
   }
   for (std::size_t i = 0; i < 2; ++i) {

@@ -21,6 +21,7 @@ class JsonAt {
 
   const std::string& path() const { return path_; }
   bool isObject() const { return value_.is_object(); }
+  bool isNull() const { return value_.is_null(); }
   bool isArray() const { return value_.is_array(); }
   std::size_t size() const { return value_.size(); }
 
@@ -37,7 +38,8 @@ class JsonAt {
   const JsonAt& array() const;
 
   std::string string() const;  ///< \throws FormatError if it is none
-  /// An array of exactly two finite numbers [m]. \throws FormatError otherwise.
+  /// An array that begins with two finite numbers [m]; an altitude behind them is dropped. \throws
+  /// FormatError otherwise.
   TPoint2D point() const;
   /// An array of points. \throws FormatError naming the one that is none.
   std::vector<TPoint2D> points() const;

@@ -2,7 +2,9 @@
 #include <mrpt_polyloc/io/bitmap_files.h>
 #include <mrpt_polyloc/io/file_extension.h>
 #include <mrpt_polyloc/io/map_files.h>
+#include <mrpt_polyloc/io/map_units.h>
 #include <mrpt_polyloc/io/polygon_files.h>
+#include <mrpt_polyloc/io/ros_map.h>
 
 namespace mrpt_polyloc {
 namespace {
@@ -13,17 +15,25 @@ PolygonMap trace(const OccupancyBitmap& bitmap, const std::string& path,
   try {
     return traceBitmap(cleanBitmap(bitmap, params.cleaning), params.tracing);
   } catch (const InvalidMapError& error) {
-    throw InvalidMapError(path + ": " + error.what());
+    const std::string extension = contentExtension(path);
+    const bool is_ros = extension == ".yaml" || extension == ".yml";
+    throw InvalidMapError(path + ": " + error.what() + (is_ros ? ": " + rosMapShares(path) : ""));
   }
 }
 
 }  // namespace
 
-RepairedMap loadMap(const std::string& path, const GridMapParams& params) {
-  if (const auto bitmap = loadBitmap(path)) return {trace(*bitmap, path, params), {}, {}};
+RepairedMap loadMap(const std::string& path, const GridMapParams& params, Notes* notes,
+                    double scale) {
+  if (auto bitmap = loadBitmap(path, notes)) {
+    scaleMap(scale, *bitmap);
+    requireMetres(path, *bitmap);
+    return {trace(*bitmap, path, params), {}, {}};
+  }
   const std::string extension = contentExtension(path);
-  if (extension == ".geojson" || extension == ".wkt" || extension == ".json") {
-    return loadPolygonMap(path);
+  if (extension == ".geojson" || extension == ".wkt" || extension == ".json" ||
+      extension == ".dxf") {
+    return loadPolygonMap(path, notes, scale);
   }
   throw FormatError(path, "",
                     "unknown extension '" + extension +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/notes.h>
 #include <mrpt_polyloc/geometry/bitmap_cleaning.h>
 #include <mrpt_polyloc/geometry/tracing.h>
 #include <mrpt_polyloc/geometry/validation.h>
@@ -20,8 +21,12 @@ struct GridMapParams {
 
 /// Any map file the project reads, by extension: .geojson, .wkt, .json (HouseExpo), .yaml/.yml (ROS
 /// map_server), .gridmap[.gz], .simplemap[.gz] (both MRPT's). Grids are cleaned and traced.
-/// \throws FormatError naming file and place; InvalidMapError naming the file, with located
+/// \param notes gets a sentence for all that was assumed of the file; may be null
+/// \param scale metres per unit of the file
+/// \throws FormatError naming file and place, also if the map cannot be in metres (see
+/// requireMetres()); InvalidMapError naming the file, with located
 /// defects.
-RepairedMap loadMap(const std::string& path, const GridMapParams& params = {});
+RepairedMap loadMap(const std::string& path, const GridMapParams& params = {},
+                    Notes* notes = nullptr, double scale = 1.0);
 
 }  // namespace mrpt_polyloc

@@ -26,6 +26,29 @@ std::string plainMessage(const std::exception& error) {
   return line;
 }
 
+void readObjects(
+    const std::string& path, bool strict, Notes* notes,
+    const std::function<void(const mrpt::serialization::CSerializable::Ptr&, std::size_t)>& take) {
+  using AtCut = GzInputStream::AtCut;
+  GzInputStream stream(path, strict ? AtCut::refuse : AtCut::end);
+  std::string cut = stream.cut();
+  std::size_t index = 0;
+  while (!stream.atEnd()) {
+    mrpt::serialization::CSerializable::Ptr object;
+    try {
+      object = readObject(stream, index);
+    } catch (const FormatError&) {
+      if (strict || index == 0 || !stream.atEnd()) throw;
+      if (cut.empty()) cut = "object " + std::to_string(index) + ": the file ends inside it";
+      break;
+    }
+    take(object, index++);
+  }
+  if (cut.empty()) return;
+  addNote(notes, "it is cut short (" + cut + "): the " + std::to_string(index) +
+                     " objects before that are used (--strict refuses it)");
+}
+
 mrpt::serialization::CSerializable::Ptr readObject(GzInputStream& stream, std::size_t index) {
   const std::string place = "object " + std::to_string(index);
   if (stream.atEnd()) throw FormatError(stream.path(), place, "the file ends before it");

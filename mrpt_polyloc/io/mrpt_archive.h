@@ -1,11 +1,13 @@
 #pragma once
 
+#include <mrpt_polyloc/base/notes.h>
 #include <mrpt_polyloc/io/GzInputStream.h>
 
 #include <mrpt/serialization/CSerializable.h>
 
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <string>
 
 namespace mrpt_polyloc {
@@ -16,6 +18,16 @@ namespace mrpt_polyloc {
 /// \throws FormatError if there is no further object, the file ends inside it, its class is not
 /// known, or its content is damaged.
 mrpt::serialization::CSerializable::Ptr readObject(GzInputStream& stream, std::size_t index);
+
+/// Reads all objects of a file. One that ends too early is read up to its last whole object, with a
+/// note of what is missing.
+///
+/// \param strict to refuse such a file instead
+/// \param take is given each object and its number from 0
+/// \throws FormatError as GzInputStream and readObject(), and if no object is whole
+void readObjects(
+    const std::string& path, bool strict, Notes* notes,
+    const std::function<void(const mrpt::serialization::CSerializable::Ptr&, std::size_t)>& take);
 
 /// The message of an exception of MRPT's without source location and backtrace.
 std::string plainMessage(const std::exception& error);

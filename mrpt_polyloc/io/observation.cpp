@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -14,7 +13,6 @@ namespace mrpt_polyloc {
 
 namespace {
 
-constexpr double kPlanarTolerance = 1e-3;   // [rad], see the header
 constexpr double kBearingTolerance = 1e-6;  // [rad], of evenly spread beams
 
 [[noreturn]] void refuse(const mrpt::obs::CObservation2DRangeScan& observation,
@@ -22,19 +20,10 @@ constexpr double kBearingTolerance = 1e-6;  // [rad], of evenly spread beams
   throw std::invalid_argument("scan of sensor '" + observation.sensorLabel + "': " + reason);
 }
 
-void requirePlanar(const mrpt::obs::CObservation2DRangeScan& observation) {
+void requireFinitePose(const mrpt::obs::CObservation2DRangeScan& observation) {
   const auto& pose = observation.sensorPose;
   for (const double value : {pose.x(), pose.y(), pose.z(), pose.yaw(), pose.pitch(), pose.roll()}) {
     if (!std::isfinite(value)) refuse(observation, "the sensor's pose is not finite");
-  }
-  if (std::abs(pose.pitch()) > kPlanarTolerance || std::abs(pose.roll()) > kPlanarTolerance) {
-    std::ostringstream reason;
-    reason << "the sensor is not planar: pitch " << pose.pitch() * 180 / kPi << " deg, roll "
-           << pose.roll() * 180 / kPi << " deg";
-    if (std::abs(std::abs(pose.roll()) - kPi) < kPlanarTolerance) {
-      reason << " (a laser mounted upside down: store it with roll 0 and its sweep reversed)";
-    }
-    refuse(observation, reason.str());
   }
 }
 
@@ -48,28 +37,53 @@ bool rightToLeft(const mrpt::obs::CObservation2DRangeScan& observation) {
 
 }  // namespace
 
-RangeScan toRangeScan(const mrpt::obs::CObservation2DRangeScan& observation) {
-  requirePlanar(observation);
+LoggedScan toLoggedScan(const mrpt::obs::CObservation2DRangeScan& observation) {
+  requireFinitePose(observation);
   const double aperture = static_cast<double>(observation.aperture);
   if (!std::isfinite(aperture) || aperture < 0.0) {
     refuse(observation, "its aperture is negative or not finite");
   }
   const std::size_t count = observation.getScanSize();
   const double sweep = rightToLeft(observation) ? aperture : -aperture;
-  const double step = count > 1 ? sweep / static_cast<double>(count - 1) : 0.0;
-  const double first = observation.sensorPose.yaw() - (count > 1 ? 0.5 * sweep : 0.0);
 
-  std::vector<Beam> beams(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    beams[i] = readingToBeam(
-        first + static_cast<double>(i) * step, static_cast<double>(observation.getScanRange(i)),
-        observation.getScanRangeValidity(i), static_cast<double>(observation.maxRange));
+  LoggedScan scan;
+  scan.step = count > 1 ? sweep / static_cast<double>(count - 1) : 0.0;
+  scan.first = count > 1 ? -0.5 * sweep : 0.0;
+  if (count > 0) {  // not one by one: MRPT checks each index
+    const float* const ranges = &observation.getScanRange(0);
+    scan.ranges.assign(ranges, ranges + count);
   }
-  const double stamp = observation.timestamp == INVALID_TIMESTAMP
-                           ? 0.0
-                           : mrpt::Clock::toDouble(observation.timestamp);
-  return RangeScan(std::move(beams), {observation.sensorPose.x(), observation.sensorPose.y()},
-                   stamp, observation.sensorLabel);
+  scan.flags.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    scan.flags[i] = observation.getScanRangeValidity(i) ? 1 : 0;
+  }
+  scan.max_range = static_cast<double>(observation.maxRange);
+  const auto& pose = observation.sensorPose;
+  scan.yaw = pose.yaw(), scan.pitch = pose.pitch(), scan.roll = pose.roll();
+  scan.sensor = {pose.x(), pose.y()};
+  scan.height = pose.z();
+  scan.stamp = observation.timestamp == INVALID_TIMESTAMP
+                   ? 0.0
+                   : mrpt::Clock::toDouble(observation.timestamp);
+  scan.label = observation.sensorLabel;
+  return scan;
+}
+
+RangeScan toRangeScan(const mrpt::obs::CObservation2DRangeScan& observation) {
+  return toRangeScan(toLoggedScan(observation), {static_cast<double>(observation.maxRange), 0.0});
+}
+
+void applyFacts(const SensorFacts& facts, mrpt::obs::CObservation2DRangeScan& observation) {
+  if (facts.limits.max_range > 0.0) {
+    observation.maxRange = static_cast<float>(facts.limits.max_range);
+  }
+  for (std::size_t i = 0; i < observation.getScanSize(); ++i) {
+    const bool sees_robot = i < facts.robot_beams.size() && facts.robot_beams[i];
+    const auto range = static_cast<double>(observation.getScanRange(i));
+    if (!sees_robot && !(range < facts.limits.min_range)) continue;
+    observation.setScanRange(i, 0.0F);
+    observation.setScanRangeValidity(i, false);
+  }
 }
 
 mrpt::obs::CObservation2DRangeScan toObservation(const RangeScan& scan, double aperture, double yaw,

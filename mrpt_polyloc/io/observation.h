@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/io/sensor_survey.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -11,16 +12,25 @@ namespace mrpt_polyloc {
 ///
 /// As in MRPT the aperture spans the beams from the first to the last, both included:
 /// bearing_i = yaw -+ aperture (i / (N - 1) - 1/2); a single beam looks along the sensor's yaw.
-/// Kinds: flagged valid = hit; not valid with a finite range > 0 = no-return; a range that is 0,
-/// negative, NaN or infinite = invalid; a hit at or above `maxRange` is a no-return. A no-return's
-/// range is `maxRange`, or the reading where `maxRange` says nothing. A stamp that is not set is 0.
-/// \throws std::invalid_argument if the sensor's pitch or roll is not zero (1 mrad; one mounted
-/// upside down has roll pi), if its pose or aperture is not finite, or the aperture is negative.
+/// A laser upside down (roll of 180 degrees) has mirrored bearings; one that is tilted is projected
+/// to the floor, or refused, as SensorTilt says. Kinds are those of readingToBeam(), the maximum
+/// range is `maxRange`: a live observation says its own. A stamp that is not set is 0.
+/// \throws std::invalid_argument if the sensor's tilt is refused, if its pose or aperture is not
+/// finite, or the aperture is negative.
 RangeScan toRangeScan(const mrpt::obs::CObservation2DRangeScan& observation);
 
+/// The same, before it is known what its readings say: for logs, which tell more than one scan.
+/// \throws std::invalid_argument as toRangeScan(), but for the tilt
+LoggedScan toLoggedScan(const mrpt::obs::CObservation2DRangeScan& observation);
+
+/// Writes what is known of a sensor into an observation, so that all who take it understand it
+/// alike: the maximum range, and hits that say nothing flagged not valid, with a range of 0.
+void applyFacts(const SensorFacts& facts, mrpt::obs::CObservation2DRangeScan& observation);
+
 /// A scan as MRPT's observation, swept right to left; the inverse of toRangeScan() up to the single
-/// precision of MRPT's ranges. A RangeScan does not keep the bearings of its invalid beams, hence
-/// the sensor's shape is given.
+/// precision of MRPT's ranges and hits at or above kNoReturnShare of the maximum range, which come
+/// back as no-returns. A RangeScan does not keep the bearings of its invalid beams, hence the
+/// sensor's shape is given.
 ///
 /// \param scan whose beams are spread evenly over `aperture`, both ends included, in rising order
 /// \param aperture field of view [rad]

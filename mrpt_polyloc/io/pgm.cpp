@@ -1,5 +1,4 @@
 #include <mrpt_polyloc/base/errors.h>
-#include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/bitmap_files.h>
 #include <mrpt_polyloc/io/gray_image.h>
 
@@ -13,11 +12,14 @@ constexpr std::int64_t kMaxLevel = 65535;
 
 class PgmReader {
  public:
-  explicit PgmReader(const std::string& path) : path_(path), data_(GzInputStream(path).readAll()) {}
+  PgmReader(const std::string& path, const std::string& data) : path_(path), data_(data) {}
 
   GrayImage read() {
     const std::string magic = data_.substr(0, 2);
-    if (magic != "P2" && magic != "P5") fail("not a PGM image (it does not begin with P2 or P5)");
+    const bool is_colour = magic == "P3" || magic == "P6";
+    if (!is_colour && magic != "P2" && magic != "P5") {
+      fail("a netpbm image that is not a PGM or PPM (P2, P5, P3 or P6)");
+    }
     next_ = 2;
     const std::int64_t width = number("width", kMaxBitmapCells);
     const std::int64_t height = number("height", kMaxBitmapCells);
@@ -27,11 +29,13 @@ class PgmReader {
     if (width > kMaxBitmapCells / height) {
       fail("more than " + std::to_string(kMaxBitmapCells) + " pixels");
     }
+    colours_ = is_colour ? 3 : 1;
     GrayImage image;
     image.width = static_cast<int>(width);
     image.height = static_cast<int>(height);
     image.max_value = static_cast<std::uint32_t>(max_value);
-    magic == "P5" ? readBinary(image) : readPlain(image);
+    magic == "P5" || magic == "P6" ? readBinary(image) : readPlain(image);
+    if (is_colour) sumColours(image);
     return image;
   }
 
@@ -73,7 +77,7 @@ class PgmReader {
     ++next_;  // exactly one; the next byte is a pixel, whatever it looks like
     const std::size_t bytes = image.max_value < 256 ? 1 : 2;
     const std::size_t count =
-        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+        colours_ * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     const std::size_t have = (data_.size() - next_) / bytes;
     if (have < count) failTruncated(have, count);
     image.values.resize(count);
@@ -88,7 +92,7 @@ class PgmReader {
 
   void readPlain(GrayImage& image) {
     const std::size_t count =
-        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+        colours_ * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     // A pixel takes two characters at least, but for the last one: no memory for a damaged size.
     if ((data_.size() - next_) / 2 + 1 < count) failTruncated((data_.size() - next_) / 2, count);
     image.values.resize(count);
@@ -97,6 +101,16 @@ class PgmReader {
       if (next_ >= data_.size()) failTruncated(i, count);
       store(image, i, static_cast<std::uint32_t>(number("pixel " + std::to_string(i), kMaxLevel)));
     }
+  }
+
+  /// One value a pixel, as map_server has it.
+  static void sumColours(GrayImage& image) {
+    const std::size_t count = image.values.size() / 3;
+    for (std::size_t i = 0; i < count; ++i) {
+      image.values[i] = image.values[3 * i] + image.values[3 * i + 1] + image.values[3 * i + 2];
+    }
+    image.values.resize(count);
+    image.max_value *= 3;
   }
 
   [[noreturn]] void failTruncated(std::size_t have, std::size_t count) const {
@@ -113,14 +127,15 @@ class PgmReader {
   }
 
   const std::string& path_;
-  std::string data_;
+  const std::string& data_;
+  std::size_t colours_ = 1;
   std::size_t next_ = 0;
 };
 
 }  // namespace
 
-GrayImage loadPgm(const std::string& path) {
-  return PgmReader(path).read();
+GrayImage decodePgm(const std::string& path, const std::string& data) {
+  return PgmReader(path, data).read();
 }
 
 }  // namespace mrpt_polyloc

@@ -1,100 +1,156 @@
 #include <mrpt_polyloc/base/errors.h>
-#include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/bitmap_files.h>
 #include <mrpt_polyloc/io/gray_image.h>
-#include <mrpt_polyloc/io/mrpt_archive.h>
 
-#include <mrpt/img/CImage.h>
-
+#include <csetjmp>
 #include <cstddef>
-#include <limits>
-#include <zlib.h>
+#include <cstring>
+#include <png.h>
 
 namespace mrpt_polyloc {
 
 namespace {
 
+constexpr std::size_t kHeaderSize = 33;  // signature, and the chunk IHDR, which begins with sizes
+
 std::uint32_t bigEndian(const std::string& data, std::size_t at) {
   std::uint32_t value = 0;
-  for (std::size_t k = 0; k < 4; ++k)
+  for (std::size_t k = 0; k < 4; ++k) {
     value = value << 8U | static_cast<unsigned char>(data[at + k]);
+  }
   return value;
 }
 
-/// Checks that all chunks of the file are there and whole, and that the image is of a modest size:
-/// the decoder prints on what is truncated or damaged, and may show half of the image.
-void checkPng(const std::string& path) {
-  const std::string data = GzInputStream(path).readAll();
-  const auto fail = [&](std::size_t at, const std::string& reason) {
-    throw FormatError(path, "byte " + std::to_string(at), reason);
-  };
-  if (data.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0) fail(0, "not a PNG image");
-  bool has_pixels = false;
-  for (std::size_t at = 8;;) {
-    if (data.size() - at < 12) fail(data.size(), "truncated: the end of the PNG is missing");
-    const std::size_t length = bigEndian(data, at);
-    if (data.size() - at - 12 < length) fail(data.size(), "truncated inside a chunk of the PNG");
-    const auto* chunk = reinterpret_cast<const Bytef*>(data.data()) + at + 4;
-    const auto sum = crc32(crc32(0, nullptr, 0), chunk, static_cast<uInt>(length + 4));
-    if (sum != bigEndian(data, at + 8 + length)) fail(at, "damaged chunk of the PNG (checksum)");
-    const std::string type = data.substr(at + 4, 4);
-    if ((at == 8) != (type == "IHDR") || (type == "IHDR" && length != 13)) {
-      fail(at, "the PNG's header is missing or out of place");
-    }
-    if (type == "IHDR") {
-      const std::uint64_t width = bigEndian(data, at + 8), height = bigEndian(data, at + 12);
-      if (width == 0 || height == 0) fail(at, "the image has no pixel");
-      if (width * height > static_cast<std::uint64_t>(kMaxBitmapCells)) {
-        fail(at, "more than " + std::to_string(kMaxBitmapCells) + " pixels");
-      }
-    }
-    has_pixels |= type == "IDAT";
-    if (type == "IEND") break;
-    at += length + 12;
-  }
-  if (!has_pixels) fail(data.size(), "the PNG holds no pixels");
+/// What libpng reads from, and what it has to say. It is C: an error jumps back over its functions,
+/// so nothing between here and there may need a destructor.
+struct Reading {
+  const std::string* data = nullptr;
+  std::size_t next = 0;
+  bool truncated = false;
+  char message[160] = "";
+};
+
+void onError(png_structp png, png_const_charp message) {
+  auto* reading = static_cast<Reading*>(png_get_error_ptr(png));
+  std::strncpy(reading->message, message, sizeof(reading->message) - 1);
+  png_longjmp(png, 1);
 }
 
-template <typename Level>
-GrayImage toGray(const mrpt::img::CImage& source) {
-  constexpr std::uint32_t kWhite = std::numeric_limits<Level>::max();
-  const auto channels = static_cast<unsigned>(source.channelCount());
+/// Of chunks that do not matter to the levels libpng only warns.
+void onWarning(png_structp /*png*/, png_const_charp /*message*/) {}
+
+void onRead(png_structp png, png_bytep bytes, std::size_t count) {
+  auto* reading = static_cast<Reading*>(png_get_io_ptr(png));
+  if (count > reading->data->size() - reading->next) {
+    reading->truncated = true;
+    png_error(png, "truncated");
+  }
+  std::memcpy(bytes, reading->data->data() + reading->next, count);
+  reading->next += count;
+}
+
+/// The decoder, freed on every way out.
+class Decoder {
+ public:
+  explicit Decoder(Reading& reading)
+      : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &reading, onError, onWarning)),
+        info_(png_ == nullptr ? nullptr : png_create_info_struct(png_)) {
+    if (info_ == nullptr) throw std::bad_alloc();
+    png_set_read_fn(png_, &reading, onRead);
+    // Checksums are checked, for all that is read; the sizes are checked by us.
+    png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+    png_set_user_limits(png_, 0x7fffffffU, 0x7fffffffU);
+  }
+  ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+
+  // Each returns false where libpng gave up.
+  bool readHeader() {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_read_info(png_, info_);
+    // Only unpacked, nothing is changed: palettes to colours, bits to bytes, keys to alpha.
+    if (png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png_);
+    if (png_get_bit_depth(png_, info_) < 8) png_set_expand_gray_1_2_4_to_8(png_);
+    if (png_get_valid(png_, info_, PNG_INFO_tRNS) != 0) png_set_tRNS_to_alpha(png_);
+    png_set_interlace_handling(png_);
+    return true;
+  }
+  bool unpack() {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_read_update_info(png_, info_);
+    return true;
+  }
+  bool readRows(unsigned char** rows) {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_read_image(png_, rows);
+    png_read_end(png_, nullptr);
+    return true;
+  }
+
+  std::size_t rowBytes() const { return png_get_rowbytes(png_, info_); }
+  unsigned channels() const { return png_get_channels(png_, info_); }
+  bool isDeep() const { return png_get_bit_depth(png_, info_) == 16; }
+
+ private:
+  png_structp png_;
+  png_infop info_;
+};
+
+/// Samples of one or two bytes, the high one first, summed over the colours.
+GrayImage toGray(const std::vector<unsigned char>& bytes, std::size_t width, std::size_t height,
+                 unsigned channels, bool deep) {
+  const std::uint32_t white = deep ? 65535 : 255;
   const unsigned colours = channels >= 3 ? 3 : 1;  // a channel behind them is alpha
   GrayImage image;
-  image.width = static_cast<int>(source.getWidth());
-  image.height = static_cast<int>(source.getHeight());
-  image.max_value = kWhite * colours;
-  image.values.reserve(source.getWidth() * source.getHeight());
-  for (unsigned row = 0; row < source.getHeight(); ++row) {
-    const Level* pixel = source.ptrLine<Level>(row);
-    for (unsigned column = 0; column < source.getWidth(); ++column, pixel += channels) {
-      std::uint32_t sum = 0;
-      for (unsigned k = 0; k < colours; ++k) sum += pixel[k];
-      image.values.push_back(sum);
-      if (channels == colours) continue;
-      const std::uint32_t alpha = pixel[colours];
-      image.opacity.push_back(alpha == 0        ? Opacity::transparent
-                              : alpha == kWhite ? Opacity::opaque
-                                                : Opacity::partial);
-    }
+  image.width = static_cast<int>(width);
+  image.height = static_cast<int>(height);
+  image.max_value = white * colours;
+  image.values.reserve(width * height);
+  const unsigned char* next = bytes.data();
+  const auto sample = [&] {
+    const std::uint32_t high = *next++;
+    return deep ? high << 8U | *next++ : high;
+  };
+  for (std::size_t i = 0; i < width * height; ++i) {
+    std::uint32_t sum = 0;
+    for (unsigned k = 0; k < colours; ++k) sum += sample();
+    image.values.push_back(sum);
+    if (channels == colours) continue;
+    const std::uint32_t alpha = sample();
+    image.opacity.push_back(alpha == 0       ? Opacity::transparent
+                            : alpha == white ? Opacity::opaque
+                                             : Opacity::partial);
   }
   return image;
 }
 
 }  // namespace
 
-GrayImage loadPng(const std::string& path) {
-  checkPng(path);
-  mrpt::img::CImage image;
-  bool loaded = false;
-  try {
-    loaded = image.loadFromFile(path);
-  } catch (const std::exception& error) {
-    throw FormatError(path, "", "the PNG cannot be decoded: " + plainMessage(error));
+GrayImage decodePng(const std::string& path, const std::string& data) {
+  Reading reading;
+  reading.data = &data;
+  const auto fail = [&]() {
+    throw FormatError(path, "byte " + std::to_string(reading.next),
+                      reading.truncated ? "truncated: the end of the PNG is missing"
+                                        : "damaged PNG: " + std::string(reading.message));
+  };
+  const auto refuse = [&](const std::string& reason) { throw FormatError(path, "", reason); };
+  if (data.size() < kHeaderSize) refuse("truncated: the PNG's header is not whole");
+  const std::size_t width = bigEndian(data, 16), height = bigEndian(data, 20);
+  if (width == 0 || height == 0) refuse("the image has no pixel");
+  if (width > static_cast<std::size_t>(kMaxBitmapCells) / height) {
+    refuse("more than " + std::to_string(kMaxBitmapCells) + " pixels");
   }
-  if (!loaded || image.isEmpty()) throw FormatError(path, "", "the PNG cannot be decoded");
-  return image.getPixelDepth() == mrpt::img::PixelDepth::D16U ? toGray<std::uint16_t>(image)
-                                                              : toGray<std::uint8_t>(image);
+  Decoder decoder(reading);
+  if (!decoder.readHeader() || !decoder.unpack()) fail();
+  // No memory for a damaged size: zlib packs at most a thousand to one.
+  if (decoder.rowBytes() * height / 1100 > data.size()) refuse("truncated: it is too short");
+  std::vector<unsigned char> bytes(decoder.rowBytes() * height);
+  std::vector<unsigned char*> rows(height);
+  for (std::size_t i = 0; i < height; ++i) rows[i] = bytes.data() + i * decoder.rowBytes();
+  if (!decoder.readRows(rows.data())) fail();
+  return toGray(bytes, width, height, decoder.channels(), decoder.isDeep());
 }
 
 }  // namespace mrpt_polyloc

@@ -1,7 +1,11 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/geometry/room_union.h>
+#include <mrpt_polyloc/io/GzInputStream.h>
+#include <mrpt_polyloc/io/file_extension.h>
 #include <mrpt_polyloc/io/geojson.h>
 #include <mrpt_polyloc/io/houseexpo.h>
 #include <mrpt_polyloc/io/json_input.h>
+#include <mrpt_polyloc/io/map_units.h>
 #include <mrpt_polyloc/io/polygon_files.h>
 #include <mrpt_polyloc/io/wkt.h>
 
@@ -10,9 +14,16 @@
 #include <fstream>
 #include <iterator>
 #include <system_error>
+#include <utility>
 
 namespace mrpt_polyloc {
 namespace {
+
+constexpr const char* kDxf =
+    "drawings are not read. Convert its rooms to polygons in metres: in QGIS open it, Processing "
+    "Toolbox, Polygonize, save as GeoJSON; or, if they are closed polylines: ogr2ogr -f GeoJSON "
+    "map.geojson drawing.dxf -dialect sqlite -sql \"SELECT ST_BuildArea(ST_Collect(geometry)) FROM "
+    "entities\"";
 
 std::string lowerCase(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](char c) {
@@ -32,31 +43,66 @@ std::string readText(const std::string& path) {
   std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (file.bad()) throw FormatError(path, "", "cannot be read");
   if (text.empty()) throw FormatError(path, "", "the file is empty");
-  return text;
+  return isCompressed(text) ? GzInputStream(path).readAll() : text;
 }
 
 }  // namespace
 
-RawMap readRawMap(const std::string& path) {
-  const std::string extension = lowerCase(std::filesystem::path(path).extension().string());
+RawMap readRawMap(const std::string& path, Notes* notes) {
+  const std::string extension = contentExtension(path);
   if (extension != ".geojson" && extension != ".wkt" && extension != ".json") {
-    throw FormatError(path, "",
-                      (extension.empty() ? "no extension" : "unknown extension " + extension) +
-                          ": a polygon map is .geojson, .wkt or .json (HouseExpo)");
+    throw FormatError(
+        path, "",
+        extension == ".dxf"
+            ? kDxf
+            : (extension.empty() ? "no extension" : "unknown extension " + extension) +
+                  ": a polygon map is .geojson, .wkt or .json (HouseExpo)");
   }
   const std::string text = readText(path);
   if (extension == ".wkt") return parseWkt(text, path);
-  if (extension == ".geojson") return parseGeoJson(text, path);
+  if (extension == ".geojson") return parseGeoJson(text, path, notes);
   const nlohmann::json document = parseJson(text, path);
   const JsonAt root(document, "", path);
-  if (!root.has("verts") && root.has("type")) return parseGeoJson(text, path);
+  if (!root.has("verts") && root.has("type")) return parseGeoJson(text, path, notes);
   return parseHouseExpo(text, path);
 }
 
-RepairedMap loadPolygonMap(const std::string& path) {
-  const RawMap raw = readRawMap(path);
+namespace {
+
+/// Whether all that is wrong with a map is that its polygons are rooms side by side.
+bool isOfRooms(const RawMap& raw, const std::vector<Defect>& defects) {
+  if (raw.polygons.size() < 2 || defects.empty()) return false;
+  for (const RawPolygon& polygon : raw.polygons) {
+    const auto& kinds = polygon.outer.kinds;
+    if (std::count(kinds.begin(), kinds.end(), EdgeKind::open) > 0) return false;
+  }
+  return std::all_of(defects.begin(), defects.end(), [](const Defect& defect) {
+    return defect.what == "overlapping components" || defect.what == "components sharing an edge";
+  });
+}
+
+RepairedMap uniteAndRepair(const RawMap& raw, const MapInspection& found, Notes* notes) {
+  const RawMap united = uniteRooms(raw);
+  RepairedMap result = repairMap(united);
+  addNote(notes, std::to_string(raw.polygons.size()) +
+                     " polygons overlap or share edges: taken for rooms and doors, and united to " +
+                     std::to_string(result.map.components().size()) +
+                     "; there is no wall where two of them touch");
+  result.defects.insert(result.defects.begin(), found.defects.begin(), found.defects.end());
+  return result;
+}
+
+}  // namespace
+
+RepairedMap loadPolygonMap(const std::string& path, Notes* notes, double scale) {
+  RawMap raw = readRawMap(path, notes);
+  scaleMap(scale, raw);
+  requireMetres(path, raw);
   try {
-    return repairMap(raw);
+    MapInspection found = inspectMap(raw);
+    if (isOfRooms(raw, found.unrepaired)) return uniteAndRepair(raw, found, notes);
+    if (!found.map) return repairMap(raw);  // it throws
+    return {std::move(*found.map), std::move(found.defects), std::move(found.repairs)};
   } catch (const InvalidMapError& error) {
     throw InvalidMapError(path + ": " + error.what());
   }

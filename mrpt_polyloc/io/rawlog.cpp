@@ -3,6 +3,7 @@
 #include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/io/rawlog.h>
 #include <mrpt_polyloc/io/sensor_labels.h>
+#include <mrpt_polyloc/io/sensor_survey.h>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CRawlog.h>
@@ -11,6 +12,7 @@
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace mrpt_polyloc {
 
@@ -39,26 +41,28 @@ void collectScans(const mrpt::serialization::CSerializable::Ptr& object, std::si
 
 }  // namespace
 
-std::vector<RangeScan> loadRawlog(const std::string& path, const std::string& sensor_label) {
-  GzInputStream stream(path);
+std::vector<RangeScan> loadRawlog(const std::string& path, const ScanFileOptions& options,
+                                  Notes* notes) {
   std::vector<StoredScan> stored;
-  for (std::size_t index = 0; !stream.atEnd(); ++index) {
-    collectScans(readObject(stream, index), index, stored);
-  }
+  readObjects(path, options.strict, notes,
+              [&](const auto& object, std::size_t index) { collectScans(object, index, stored); });
 
   std::vector<std::string> labels;
   labels.reserve(stored.size());
   for (const StoredScan& entry : stored) labels.push_back(entry.scan->sensorLabel);
 
-  std::vector<RangeScan> scans;
-  for (const std::size_t i : selectSensor(path, labels, sensor_label)) {
+  std::vector<LoggedScan> scans;
+  for (const std::size_t i : selectSensor(path, labels, options.sensor_label)) {
+    const std::string place = "object " + std::to_string(stored[i].object);
     try {
-      scans.push_back(toRangeScan(*stored[i].scan));
+      scans.push_back(toLoggedScan(*stored[i].scan));
     } catch (const std::invalid_argument& error) {
-      throw FormatError(path, "object " + std::to_string(stored[i].object), error.what());
+      throw FormatError(path, place, error.what());
     }
+    scans.back().place = place;
+    stored[i].scan.reset();  // its readings are not needed twice
   }
-  return scans;
+  return toRangeScans(path, std::move(scans), options.readings, notes);
 }
 
 }  // namespace mrpt_polyloc

@@ -140,6 +140,25 @@ std::vector<CObservation2DRangeScan::Ptr> chosenScans(const std::string& path,
   return chosen;
 }
 
+/// Fills in the scans of all steps, and tells their observations what the log knows.
+void convertScans(const std::string& path, const ReadingOptions& options, Notes* notes,
+                  std::vector<ReplayStep>& steps) {
+  std::vector<LoggedScan> logged;
+  for (const ReplayStep& step : steps) {
+    const std::string place = "object " + std::to_string(step.object);
+    try {
+      logged.push_back(toLoggedScan(*step.laser));
+    } catch (const std::invalid_argument& error) {
+      throw FormatError(path, place, error.what());
+    }
+    logged.back().place = place;
+  }
+  const LogSurvey survey(logged, options, notes);
+  for (std::size_t i = 0; i < steps.size(); ++i) applyFacts(survey.of(logged[i]), *steps[i].laser);
+  std::vector<RangeScan> scans = toRangeScans(path, std::move(logged), options, nullptr);
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i].scan = std::move(scans[i]);
+}
+
 }  // namespace
 
 void OdometryNoise::check() const {
@@ -147,20 +166,19 @@ void OdometryNoise::check() const {
   requireNotNegative("min_std_phi", min_std_phi);
 }
 
-std::vector<ReplayStep> loadReplayLog(const std::string& path, const std::string& sensor_label,
-                                      const OdometryNoise& noise) {
+std::vector<ReplayStep> loadReplayLog(const std::string& path, const ScanFileOptions& options,
+                                      const OdometryNoise& noise, Notes* notes) {
   noise.check();
-  GzInputStream stream(path);
   Collector collector(path);
-  for (std::size_t index = 0; !stream.atEnd(); ++index) {
-    collector.add(readObject(stream, index), index);
-  }
+  readObjects(
+      path, options.strict, notes,
+      [&](const CSerializable::Ptr& object, std::size_t index) { collector.add(object, index); });
   CActionRobotMovement2D::TMotionModelOptions model;
   model.modelSelection = CActionRobotMovement2D::mmGaussian;
   model.gaussianModel.minStdXY = static_cast<float>(noise.min_std_xy);
   model.gaussianModel.minStdPHI = static_cast<float>(noise.min_std_phi);
 
-  const auto chosen = chosenScans(path, collector.candidates, sensor_label);
+  const auto chosen = chosenScans(path, collector.candidates, options.sensor_label);
   std::vector<ReplayStep> steps;
   std::vector<CActionCollection::Ptr> pending;
   std::optional<CPose2D> last_odometry;
@@ -173,11 +191,6 @@ std::vector<ReplayStep> loadReplayLog(const std::string& path, const std::string
     step.pair = collector.has_actions ? candidate.pair : steps.size();
     step.frame = candidate.frame;
     step.laser = chosen[i];
-    try {
-      step.scan = toRangeScan(*chosen[i]);
-    } catch (const std::invalid_argument& error) {
-      throw FormatError(path, "object " + std::to_string(candidate.object), error.what());
-    }
     if (!steps.empty()) {
       const CPose2D driven =
           candidate.odometry && last_odometry ? *candidate.odometry - *last_odometry : CPose2D();
@@ -188,6 +201,7 @@ std::vector<ReplayStep> loadReplayLog(const std::string& path, const std::string
     if (candidate.odometry) last_odometry = candidate.odometry;
     steps.push_back(std::move(step));
   }
+  convertScans(path, options.readings, notes, steps);
   return steps;
 }
 

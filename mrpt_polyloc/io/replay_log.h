@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mrpt_polyloc/localization/scan/RangeScan.h>
+#include <mrpt_polyloc/io/scan_files.h>
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -46,10 +46,12 @@ struct OdometryNoise {
 /// are passed over. Observations only: the frame is the scan alone; the movement is what the
 /// CObservationOdometry readings before it say, standing still where there are none.
 ///
-/// \param sensor_label as in loadRawlog()
+/// What the log as a whole tells of its sensor (see surveySensor()) is written into the scans, too,
+/// so that the filter's map and the search take them alike.
+/// \param options, notes as in loadRawlog()
 /// \throws FormatError as loadRawlog(), and for an action that does not say how the robot moved in
 /// the plane
-std::vector<ReplayStep> loadReplayLog(const std::string& path, const std::string& sensor_label = {},
-                                      const OdometryNoise& noise = {});
+std::vector<ReplayStep> loadReplayLog(const std::string& path, const ScanFileOptions& options = {},
+                                      const OdometryNoise& noise = {}, Notes* notes = nullptr);
 
 }  // namespace mrpt_polyloc

@@ -1,15 +1,19 @@
 #include <mrpt_polyloc/base/errors.h>
-#include <mrpt_polyloc/io/file_extension.h>
 #include <mrpt_polyloc/io/flat_yaml.h>
 #include <mrpt_polyloc/io/gray_image.h>
 #include <mrpt_polyloc/io/numbers.h>
 #include <mrpt_polyloc/io/ros_map.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <sstream>
+#include <system_error>
 #include <vector>
 
 namespace mrpt_polyloc {
@@ -29,23 +33,47 @@ struct MapInfo {
   double free_thresh = 0.25;
 };
 
+std::string text(double number) {
+  std::ostringstream out;
+  out << number;
+  return out.str();
+}
+
+std::string thresholds(const MapInfo& info) {
+  return "'free_thresh' " + text(info.free_thresh) + " and 'occupied_thresh' " +
+         text(info.occupied_thresh);
+}
+
+/// YAML's ways of writing it, and those of programs that print a float.
+bool isNan(const std::string& scalar) {
+  std::string letters;
+  for (const char c : scalar) {
+    if (c >= 'A' && c <= 'Z') letters += static_cast<char>(c - 'A' + 'a');
+    if (c >= 'a' && c <= 'z') letters += c;
+  }
+  return letters == "nan" && scalar.size() <= 5;
+}
+
 /// Reads the keys of one yaml file, each with its own complaint.
 class InfoReader {
  public:
   explicit InfoReader(const std::string& path) : path_(path), keys_(loadFlatYaml(path)) {}
 
-  MapInfo read() const {
+  MapInfo read(Notes* notes) const {
     MapInfo info;
     info.image = scalar("image").value_or("");
     if (info.image.empty()) failMissing("image");
     info.resolution = number("resolution", std::nullopt);
     if (!(info.resolution > 0.0)) fail("resolution", "is not above 0");
-    info.origin = origin();
+    info.origin = origin(notes);
     info.negate = negate();
     info.mode = mode();
     info.occupied_thresh = number("occupied_thresh", info.occupied_thresh);
     info.free_thresh = number("free_thresh", info.free_thresh);
-    if (info.free_thresh > info.occupied_thresh) fail("free_thresh", "is above occupied_thresh");
+    if (info.free_thresh > info.occupied_thresh) {
+      addNote(notes, thresholds(info) + ": they are crossed, so that what both would take is " +
+                         "occupied, as map_server has it");
+    }
     return info;
   }
 
@@ -61,6 +89,9 @@ class InfoReader {
 
   std::optional<std::string> scalar(const std::string& key) const {
     const auto found = keys_.find(key);
+    if (found != keys_.end() && found->second.is_nested) {
+      fail(key, "is nested where one value is expected");
+    }
     if (found == keys_.end() || (!found->second.is_list && found->second.scalars.empty())) {
       return std::nullopt;
     }
@@ -81,13 +112,19 @@ class InfoReader {
     return *otherwise;
   }
 
-  mrpt::math::TPose2D origin() const {
+  mrpt::math::TPose2D origin(Notes* notes) const {
     const auto found = keys_.find("origin");
     if (found == keys_.end()) failMissing("origin");
     const auto& scalars = found->second.scalars;
-    if (!found->second.is_list || scalars.size() != 3) fail("origin", "is not a list [x, y, yaw]");
-    return {finite("origin", scalars[0]), finite("origin", scalars[1]),
-            finite("origin", scalars[2])};
+    if (found->second.is_nested || !found->second.is_list || scalars.size() != 3)
+      fail("origin", "is not a list [x, y, yaw]");
+    mrpt::math::TPose2D pose{finite("origin", scalars[0]), finite("origin", scalars[1]), 0.0};
+    if (isNan(scalars[2])) {  // some map savers write a yaw that was never set
+      addNote(notes, "'origin' has the yaw '" + scalars[2] + "': taken for 0");
+    } else {
+      pose.phi = finite("origin", scalars[2]);
+    }
+    return pose;
   }
 
   bool negate() const {
@@ -114,20 +151,35 @@ class InfoReader {
   std::map<std::string, FlatYamlValue> keys_;
 };
 
-GrayImage loadImage(const std::string& yaml_path, const MapInfo& info) {
-  const auto path = std::filesystem::path(yaml_path).parent_path() / info.image;
-  if (!std::filesystem::exists(path)) {
+/// The image that the yaml names: `~` is the home folder; an absolute path that is not there, for
+/// it is one of another machine, is looked for beside the yaml.
+std::filesystem::path imagePath(const std::string& yaml_path, const MapInfo& info, Notes* notes) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(yaml_path).parent_path();
+  fs::path path = info.image;
+  if (info.image.compare(0, 2, "~/") == 0) {
+    const char* home = std::getenv("HOME");
+    if (home != nullptr) path = fs::path(home) / info.image.substr(2);
+  }
+  path = folder / path;
+  std::error_code ignored;
+  if (fs::exists(path, ignored)) return path;
+  const fs::path beside = folder / fs::path(info.image).filename();
+  const bool is_relative = fs::path(info.image).is_relative() && info.image[0] != '~';
+  if (is_relative || !fs::is_regular_file(beside, ignored)) {
     throw FormatError(yaml_path, "'image'", "there is no file " + path.string());
   }
-  const std::string extension = contentExtension(path.string());
+  addNote(notes, "'image': there is no " + path.string() + ", taken is " + beside.string());
+  return beside;
+}
+
+GrayImage loadMapImage(const std::string& yaml_path, const MapInfo& info, Notes* notes) {
+  const std::string path = imagePath(yaml_path, info, notes).string();
   try {
-    if (extension == ".pgm") return loadPgm(path.string());
-    if (extension == ".png") return loadPng(path.string());
+    return loadImage(path);
   } catch (const FormatError& error) {
     throw FormatError(yaml_path, "'image'", error.what());
   }
-  throw FormatError(yaml_path, "'image'",
-                    path.string() + ": unknown kind of image, known are .pgm and .png");
 }
 
 /// State of one pixel; the rules are in the header.
@@ -148,11 +200,87 @@ CellState classify(const MapInfo& info, std::uint32_t value, std::uint32_t max_v
   return occupied < info.free_thresh ? CellState::free : CellState::unknown;
 }
 
-}  // namespace
+// What map_saver writes, whatever thresholds it writes beside it.
+constexpr std::uint32_t kSavedUnknown = 205;
+constexpr std::uint32_t kSavedFree = 254;
 
-OccupancyBitmap loadRosMap(const std::string& yaml_path) {
-  const MapInfo info = InfoReader(yaml_path).read();
-  const GrayImage image = loadImage(yaml_path, info);
+/// Whether an image has only the levels of a map_saver: 0, 205 and 254 (or 255).
+bool isMapSavers(const MapInfo& info, const GrayImage& image) {
+  if (info.mode != Mode::trinary || info.negate || image.max_value % 255 != 0) return false;
+  const std::uint32_t colours = image.max_value / 255;
+  if (colours != 1 && colours != 3) return false;
+  bool has_unknown = false, has_free = false;
+  for (const std::uint32_t value : image.values) {
+    const std::uint32_t level = value / colours;
+    const bool is_free = level >= kSavedFree;
+    if (level * colours != value || (level != 0 && level != kSavedUnknown && !is_free)) {
+      return false;
+    }
+    has_unknown |= level == kSavedUnknown;
+    has_free |= is_free;
+  }
+  return has_unknown && has_free;
+}
+
+/// How many cells are what, and which levels the image has.
+std::string sharesText(const MapInfo& info, const GrayImage& image, const OccupancyBitmap& bitmap) {
+  std::array<std::size_t, 3> counts{};
+  for (const CellState cell : bitmap.cells) ++counts[static_cast<std::size_t>(cell)];
+  const auto percent = [&](CellState state) {
+    std::ostringstream out;
+    out.precision(3);
+    out << 100.0 * static_cast<double>(counts[static_cast<std::size_t>(state)]) /
+               static_cast<double>(bitmap.cells.size())
+        << " %";
+    return out.str();
+  };
+  const auto [low, high] = std::minmax_element(image.values.begin(), image.values.end());
+  const double to_byte = 255.0 / static_cast<double>(image.max_value);
+  const auto level = [&](std::uint32_t value) { return text(std::round(value * to_byte)); };
+  return percent(CellState::free) + " is free, " + percent(CellState::occupied) + " occupied, " +
+         percent(CellState::unknown) + " unknown by " + thresholds(info) +
+         "; the levels of the image are " + level(*low) + " to " + level(*high);
+}
+
+/// Thresholds that part the most frequent level from what is darker and brighter: in grey maps, as
+/// Cartographer draws them, that is the unknown.
+std::string otherThresholds(const MapInfo& info, const GrayImage& image) {
+  if (info.mode == Mode::raw) return "";
+  std::map<std::uint32_t, std::size_t> counts;
+  for (const std::uint32_t value : image.values) ++counts[value];
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  const double white = image.max_value;
+  const double bright = most->first / white;
+  const double occupied = info.negate ? bright : 1.0 - bright;
+  constexpr double kMargin = 0.02;  // five levels of 255
+  if (occupied < 2 * kMargin || occupied > 1.0 - 2 * kMargin) return "";
+  const auto rounded = [](double x) { return text(std::round(100 * x) / 100); };
+  return "; if its most frequent level " + text(std::round(255 * bright)) +
+         " is the unknown, 'free_thresh: " + rounded(occupied - kMargin) +
+         "' and 'occupied_thresh: " + rounded(occupied + kMargin) + "' would do";
+}
+
+/// Notes where what was never seen may have become free.
+void noteUnknown(const MapInfo& info, const GrayImage& image, const OccupancyBitmap& bitmap,
+                 bool saved_unknown, Notes* notes) {
+  constexpr double kNearlyNothing = 0.005;
+  if (saved_unknown) {
+    addNote(notes, "'free_thresh' " + text(info.free_thresh) +
+                       " would make cells of level 205 free, which map_saver writes where nothing "
+                       "was seen: they are taken for unknown ('free_thresh: 0.196' says so)");
+    return;
+  }
+  if (info.free_thresh > info.occupied_thresh) return;  // as is told already
+  const auto unknown = std::count(bitmap.cells.begin(), bitmap.cells.end(), CellState::unknown);
+  if (static_cast<double>(unknown) < kNearlyNothing * static_cast<double>(bitmap.cells.size())) {
+    addNote(notes, "nearly nothing of it is unknown: " + sharesText(info, image, bitmap) +
+                       "; what was never seen counts as free if 'free_thresh' is too high");
+  }
+}
+
+OccupancyBitmap toBitmap(const MapInfo& info, const GrayImage& image, bool saved_unknown) {
   OccupancyBitmap bitmap;
   bitmap.width = image.width;
   bitmap.height = image.height;
@@ -160,15 +288,43 @@ OccupancyBitmap loadRosMap(const std::string& yaml_path) {
   bitmap.pose_map_bitmap = info.origin;
   bitmap.cells.reserve(image.values.size());
   const auto width = static_cast<std::size_t>(image.width);
+  const std::uint32_t unknown_level = kSavedUnknown * (image.max_value / 255);
   for (std::size_t row = 0; row < static_cast<std::size_t>(image.height); ++row) {
     const std::size_t image_row = static_cast<std::size_t>(image.height) - 1 - row;
     for (std::size_t column = 0; column < width; ++column) {
       const std::size_t i = image_row * width + column;
       const Opacity opacity = image.opacity.empty() ? Opacity::opaque : image.opacity[i];
-      bitmap.cells.push_back(classify(info, image.values[i], image.max_value, opacity));
+      bitmap.cells.push_back(saved_unknown && image.values[i] == unknown_level
+                                 ? CellState::unknown
+                                 : classify(info, image.values[i], image.max_value, opacity));
     }
   }
   return bitmap;
+}
+
+/// Whether 205 is unknown against what `free_thresh` says.
+bool savedUnknown(const MapInfo& info, const GrayImage& image) {
+  const std::uint32_t level = kSavedUnknown * (image.max_value / 255);
+  return isMapSavers(info, image) &&
+         classify(info, level, image.max_value, Opacity::opaque) == CellState::free;
+}
+
+}  // namespace
+
+OccupancyBitmap loadRosMap(const std::string& yaml_path, Notes* notes) {
+  const MapInfo info = InfoReader(yaml_path).read(notes);
+  const GrayImage image = loadMapImage(yaml_path, info, notes);
+  const bool saved_unknown = savedUnknown(info, image);
+  OccupancyBitmap bitmap = toBitmap(info, image, saved_unknown);
+  noteUnknown(info, image, bitmap, saved_unknown, notes);
+  return bitmap;
+}
+
+std::string rosMapShares(const std::string& yaml_path) {
+  const MapInfo info = InfoReader(yaml_path).read(nullptr);
+  const GrayImage image = loadMapImage(yaml_path, info, nullptr);
+  const OccupancyBitmap bitmap = toBitmap(info, image, savedUnknown(info, image));
+  return sharesText(info, image, bitmap) + otherThresholds(info, image);
 }
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/notes.h>
+#include <mrpt_polyloc/io/readings.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <optional>
@@ -14,14 +16,21 @@ struct ScanFileOptions {
   /// Field of view of CARMEN FLASER scans, from the first beam to the last [rad]; it wins over what
   /// the log says. See loadCarmen().
   std::optional<double> laser_fov;
+  /// What readings mean, where the log does not say or is wrong.
+  ReadingOptions readings;
+  /// Refuse a file that ends too early, instead of reading what is whole of it: robots lose power.
+  bool strict = false;
 };
 
 /// All laser scans of a log, in file order: .rawlog (action/sensory-frame or observations only),
-/// CARMEN .log/.clf, each plain or gzipped.
-/// \throws FormatError naming file and place (object, line or byte) for a missing, empty, truncated
-/// or foreign file, an unknown extension, several sensor labels where none is chosen, a label that
-/// does not occur, a sensor that is not planar, a log without scans. InvalidParamsError for a field
-/// of view out of range.
-std::vector<RangeScan> loadScans(const std::string& path, const ScanFileOptions& options = {});
+/// CARMEN .log/.clf, each plain or compressed by gzip or zstd.
+/// \param notes gets a sentence for all that was assumed or is missing; may be null
+/// \throws FormatError naming file and place (object, line or byte) for a missing, empty, damaged
+/// or foreign file, one that is cut short (if `options.strict`, or if no scan of it is whole), an
+/// unknown extension, several sensor labels where none is chosen, a label that does not occur, a
+/// sensor that is tilted too much (see SensorTilt), a log without scans. InvalidParamsError for an
+/// option out of range.
+std::vector<RangeScan> loadScans(const std::string& path, const ScanFileOptions& options = {},
+                                 Notes* notes = nullptr);
 
 }  // namespace mrpt_polyloc

@@ -18,6 +18,8 @@ bool isLetter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
+constexpr const char* kExample = "POLYGON ((0 0, 10 0, 10 8, 0 8, 0 0)) in metres";
+
 class WktParser {
  public:
   WktParser(const std::string& text, const std::string& file) : text_(text), file_(file) {}
@@ -28,7 +30,10 @@ class WktParser {
     if (atEnd()) fail("the file is empty");
     RawMap map;
     while (!atEnd()) {
+      readSrid();
       readGeometry(map);
+      const std::size_t geometry_end = at_;
+      if (!take(';')) at_ = geometry_end;
       const std::size_t end = at_;
       skipSpace();
       if (!atEnd() && text_.find('\n', end) >= at_) fail("text after the end of the geometry");
@@ -71,22 +76,50 @@ class WktParser {
     fail(std::string("expected '") + wanted + "'" + (atEnd() ? ", but the text ends" : ""));
   }
 
-  void readGeometry(RawMap& map) {
+  /// "SRID=n;" before a geometry, as PostGIS writes it.
+  void readSrid() {
+    skipSpace();
     const std::size_t start = at_;
-    const std::string type = word();
+    if (word() != "SRID") {
+      at_ = start;
+      return;
+    }
+    expect('=');
+    const double srid = readNumber();
+    for (const int degrees : {4326, 4258, 4269, 4979}) {
+      if (srid == degrees) {
+        failAt(start,
+               "SRID " + std::to_string(degrees) +
+                   " is degrees of longitude and latitude: a map is in metres, so project it");
+      }
+    }
+    expect(';');
+  }
+
+  /// Takes Z, M or ZM off the end of a type: "POLYGONZ" is written, too.
+  static std::string withoutDimensions(std::string type) {
+    for (const char letter : {'M', 'Z'}) {
+      if (!type.empty() && type.back() == letter) type.pop_back();
+    }
+    return type;
+  }
+
+  void readGeometry(RawMap& map) {
+    skipSpace();
+    const std::size_t start = at_;
+    const std::string type = withoutDimensions(word());
+    if (type == "GEOMETRYCOLLECTION") return readCollection(map);
     if (type != "POLYGON" && type != "MULTIPOLYGON") {
-      failAt(start, type.empty() ? "expected POLYGON or MULTIPOLYGON"
-                                 : "geometry type " + type +
-                                       ": only POLYGON and MULTIPOLYGON "
-                                       "can be a map");
+      failAt(start, type.empty()
+                        ? "expected POLYGON or MULTIPOLYGON"
+                        : "geometry type " + type +
+                              ": only POLYGON and MULTIPOLYGON can be a map, as " + kExample);
     }
     skipSpace();
     const std::size_t flag_start = at_;
-    const std::string flag = word();
+    std::string flag = word();
+    if (flag == "Z" || flag == "M" || flag == "ZM") flag = word();
     if (flag == "EMPTY") return;
-    if (flag == "Z" || flag == "M" || flag == "ZM") {
-      failAt(flag_start, flag + " coordinates: a map has x and y only");
-    }
     if (!flag.empty()) failAt(flag_start, "expected '(' or EMPTY");
     if (type == "POLYGON") {
       map.polygons.push_back(readPolygon());
@@ -100,6 +133,20 @@ class WktParser {
       if (!member.empty()) failAt(member_start, "expected '(' or EMPTY");
       map.polygons.push_back(readPolygon());
     });
+  }
+
+  void readCollection(RawMap& map) {
+    constexpr int kMostNested = 100;
+    if (++nesting_ > kMostNested) fail("more than 100 collections inside one another");
+    std::size_t flag_start = at_;
+    std::string flag = word();
+    if (flag == "Z" || flag == "M" || flag == "ZM") {
+      flag_start = at_;
+      flag = word();
+    }
+    if (!flag.empty() && flag != "EMPTY") failAt(flag_start, "expected '(' or EMPTY");
+    if (flag.empty()) readList([&] { readGeometry(map); });
+    --nesting_;
   }
 
   /// Reads "(item, item, ...)".
@@ -129,9 +176,9 @@ class WktParser {
       const double x = readNumber();
       const double y = readNumber();
       vertices.emplace_back(x, y);
-      skipSpace();
-      if (!atEnd() && text_[at_] != ',' && text_[at_] != ')' && startsNumber()) {
-        fail("a third coordinate: a map has x and y only");
+      for (int dropped = 0; dropped < 2; ++dropped) {  // Z and M
+        skipSpace();
+        if (!atEnd() && startsNumber()) readNumber();
       }
     });
     return wallRing(std::move(vertices));
@@ -160,6 +207,7 @@ class WktParser {
   const std::string& text_;
   const std::string& file_;
   std::size_t at_ = 0;
+  int nesting_ = 0;
 };
 
 void appendRing(std::string& text, const Ring& ring) {

@@ -11,6 +11,7 @@ LocalizationResult resultOf(Assessment assessment) {
   result.match_probability = assessment.match_probability;
   result.features = assessment.features;
   result.hypotheses = std::move(assessment.hypotheses);
+  result.listed = assessment.listed;
   return result;
 }
 
@@ -30,7 +31,8 @@ LocalizationResult resultOf(const ExactAnswers& answers, double tolerance,
     hypothesis.pose_map_robot = poses[i];
     hypothesis.covariance.setZero();
     for (int k = 0; k < 3; ++k) hypothesis.covariance(k, k) = tolerance * tolerance;
-    hypothesis.weight = 1.0 / static_cast<double>(count);
+    hypothesis.weight = 1.0 / static_cast<double>(poses.size());
+    result.listed += hypothesis.weight;
     result.hypotheses.push_back(hypothesis);
   }
   return result;

@@ -27,6 +27,9 @@ struct LocalizationResult {
   double match_probability = 0.0;
   std::optional<MatchFeatures> features;  ///< of the best answer, if there is one
   std::vector<Hypothesis> hypotheses;
+  /// Share of the posterior that the hypotheses hold: the sum of their weights, below 1 where more
+  /// were found than asked for; 0 without any.
+  double listed = 0.0;
   std::optional<Certificate> certificate;  ///< of the certified search alone
   std::vector<PoseRegion> regions;         ///< if asked for
   SearchStatistics statistics;

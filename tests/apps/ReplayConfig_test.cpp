@@ -47,7 +47,8 @@ TEST_F(ReplayConfigTest, HasTheDefaultsOfWhatItConfigures) {
 
 TEST_F(ReplayConfigTest, ReadsEveryOption) {
   const ReplayConfig config = load(
-      "[polyloc]\nmap=m.wkt\nsensor=L\ninit=uniform\nparticles=7\nleast_per_hypothesis=3\n"
+      "[polyloc]\nmap=m.wkt\nsensor=L\nmax_range=29.5\nmin_range=0.125\ninit=uniform\nparticles="
+      "7\nleast_per_hypothesis=3\n"
       "uniform_share=0.25\nmax_hypotheses=4\nodometry_noise=ini\nrecovery=no\n"
       "recovery_share=0.75\nrecovery_least_gain=0.9\nrecovery_sure_weight=0.5\nrecovery_patience="
       "8\njudged_particles=11\njudged_least_hits=12\n"
@@ -58,7 +59,9 @@ TEST_F(ReplayConfigTest, ReadsEveryOption) {
       "particles_count=23\n3DSceneFrequency=24 // as MRPT's inis comment\n"
       "[DummyOdometryParams]\nminStdXY=0.5\nminStdPHI=90 // deg\n");
   EXPECT_EQ(config.search_map, "m.wkt");
-  EXPECT_EQ(config.sensor_label, "L");
+  EXPECT_EQ(config.scans.sensor_label, "L");
+  EXPECT_EQ(config.scans.readings.max_range, 29.5);
+  EXPECT_EQ(config.scans.readings.min_range, 0.125);
   EXPECT_EQ(config.init, Init::uniform);
   EXPECT_EQ(config.seeds.particles, 7U);
   EXPECT_EQ(config.seeds.least_per_hypothesis, 3U);

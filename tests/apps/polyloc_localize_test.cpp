@@ -24,12 +24,19 @@ using testing::StartsWith;
 using testing::UnorderedElementsAre;
 
 const char* const kHeader =
-    "row,stamp,status,rank,x,y,phi_deg,weight,cost,std_x,std_y,std_phi_deg,ms";
+    "row,stamp,status,rank,x,y,phi_deg,weight,cost,std_x,std_y,std_phi_deg,ms,match,listed,cov_xy";
 
-/// CSV without its last column, the time.
+constexpr std::size_t kColumns = 16, kTimeColumn = 12;
+
+/// CSV without the time.
 std::string withoutTimes(const std::string& csv) {
   std::string rest;
-  for (const std::string& line : linesOf(csv)) rest += line.substr(0, line.rfind(',')) + "\n";
+  for (const std::string& line : linesOf(csv)) {
+    std::vector<std::string> fields = fieldsOf(line);
+    if (fields.size() > kTimeColumn) fields[kTimeColumn].clear();
+    for (const std::string& field : fields) rest += field + ",";
+    rest += "\n";
+  }
   return rest;
 }
 
@@ -80,6 +87,65 @@ TEST_F(PolylocLocalize, KeepsItsIndexInAFile) {
   ASSERT_EQ(reads.code, 0) << reads.err;
   EXPECT_EQ(withoutTimes(writes.out), withoutTimes(plain.out));
   EXPECT_EQ(withoutTimes(reads.out), withoutTimes(plain.out));
+}
+
+TEST_F(PolylocLocalize, ExplainsWhatItMakesOfMapAndScans) {
+  simulate("sim");
+  const Outcome outcome = localize({"--explain"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, IsEmpty());
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("free space    36.90 m2 in 1 parts"), HasSubstr("hits"),
+                                 HasSubstr("odd: no reading is a no-return")));
+  EXPECT_THAT(localize({"--explain", "--max-range", "2"}).out,
+              AllOf(HasSubstr("nothing within 2.00 m"), HasSubstr("odd: the range is short")));
+  EXPECT_EQ(localize({"--explain", "--method", "exact"}).code, 2);
+  write("bad.wkt", "POLYGON ((");
+  EXPECT_EQ(run("polyloc-localize",
+                {"--map", path("bad.wkt"), "--scans", path("sim/scans.rawlog"), "--explain"})
+                .code,
+            1);
+}
+
+TEST_F(PolylocLocalize, TakesLimitsOfTheRange) {
+  simulate("sim");
+  const std::string plain = withoutTimes(localize({}).out);
+  EXPECT_NE(withoutTimes(localize({"--max-range", "1.5"}).out), plain);
+  EXPECT_NE(withoutTimes(localize({"--min-range", "1.5"}).out), plain);
+  EXPECT_EQ(withoutTimes(localize({"--max-range", "1000", "--min-range", "0"}).out), plain);
+  for (const char* bad : {"0", "-1", "inf", "x"}) {
+    EXPECT_EQ(localize({"--max-range", bad}).code, 2) << bad;
+  }
+  EXPECT_EQ(localize({"--min-range", "-1"}).code, 2);
+  EXPECT_EQ(localize({"--max-range", "1", "--min-range", "2"}).code, 1);
+}
+
+TEST_F(PolylocLocalize, UsesTheWholePartOfALogThatIsCutShort) {
+  simulate("sim");
+  const std::string whole = readFile(path("sim/scans.rawlog"));
+  write("cut.rawlog", whole.substr(0, whole.size() - 20));
+  const Outcome outcome = localize({}, "cut.rawlog");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, AllOf(StartsWith("polyloc-localize: "),
+                                 HasSubstr("cut.rawlog: note: it is cut short")));
+  const Outcome strict = localize({"--strict"}, "cut.rawlog");
+  EXPECT_EQ(strict.code, 1);
+  EXPECT_THAT(strict.err, HasSubstr("truncated"));
+}
+
+TEST_F(PolylocLocalize, ScalesAMapInMillimetres) {
+  simulate("sim");
+  write("mm.wkt", "POLYGON ((0 0, 4000 0, 4000 3000, 0 3000))");
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"--map", path("mm.wkt"), "--scans",
+                                          path("sim/scans.rawlog")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run("polyloc-localize", arguments);
+  };
+  const Outcome refused = with({});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("mm.wkt"), HasSubstr("--scale 0.001")));
+  EXPECT_EQ(with({"--scale", "0.001"}).code, 0);
+  EXPECT_EQ(with({"--scale", "0"}).code, 2);
 }
 
 TEST_F(PolylocLocalize, RefusesAFileThatIsNotItsIndex) {
@@ -143,19 +209,48 @@ TEST_F(PolylocLocalize, FindsEveryScanOfAnAsymmetricRoom) {
   }
 }
 
-TEST_F(PolylocLocalize, WeightsOfAScanSumToOneAndRanksCount) {
+TEST_F(PolylocLocalize, WeightsOfAScanSumToWhatIsListedAndRanksCount) {
   simulate("sim");
   std::map<std::string, std::vector<double>> weights;
+  std::map<std::string, double> listed;
   const std::vector<std::string> lines = linesOf(localize({}).out);
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const std::vector<std::string> fields = fieldsOf(lines[i]);
-    ASSERT_THAT(fields, SizeIs(13));
+    ASSERT_THAT(fields, SizeIs(kColumns));
+    listed[fields[0]] = std::stod(fields[14]);
+    EXPECT_GT(std::stod(fields[13]), 0.5);  // match: the scans are this room's
+    const double limit = std::stod(fields[9]) * std::stod(fields[10]) + 1e-8;
+    EXPECT_LE(std::abs(std::stod(fields[15])), limit);  // a covariance
     weights[fields[0]].push_back(std::stod(fields[7]));
     EXPECT_EQ(std::stoul(fields[3]), weights[fields[0]].size());
   }
   EXPECT_THAT(weights, SizeIs(12));
   for (const auto& [row, parts] : weights) {
-    EXPECT_NEAR(std::accumulate(parts.begin(), parts.end(), 0.0), 1.0, 1e-4) << "row " << row;
+    EXPECT_NEAR(std::accumulate(parts.begin(), parts.end(), 0.0), listed[row], 1e-4) << row;
+    EXPECT_NEAR(listed[row], 1.0, 1e-4);
+  }
+}
+
+TEST_F(PolylocLocalize, AListCutShortSaysHowMuchOfThePosteriorItHolds) {
+  // A square room looks the same from four poses.
+  write("square.wkt", "POLYGON ((0 0, 5 0, 5 5, 0 5, 0 0))\n");
+  ASSERT_EQ(run("polyloc-simulate", {"--map", path("square.wkt"), "-n", "3", "--seed", "4",
+                                     "--clearance", "0.5", "-o", path("square")})
+                .code,
+            0);
+  const auto answers = [&](const char* most) {
+    return firstAnswers(
+        run("polyloc-localize", {"--map", path("square.wkt"), "--scans",
+                                 path("square/scans.rawlog"), "--max-hypotheses", most})
+            .out);
+  };
+  const auto all = answers("20"), one = answers("1");
+  ASSERT_THAT(all, SizeIs(3));
+  for (const auto& [row, fields] : one) {
+    EXPECT_NEAR(std::stod(fields[7]), std::stod(all.at(row)[7]), 1e-4);  // of the whole
+    EXPECT_NEAR(std::stod(fields[14]), std::stod(fields[7]), 1e-4);
+    EXPECT_LT(std::stod(fields[14]), 0.5);
+    EXPECT_EQ(fields[2], "ambiguous");
   }
 }
 
@@ -248,7 +343,8 @@ TEST_F(PolylocLocalize, ScansWithoutInformationHaveOneRowOfRankZero) {
   ASSERT_THAT(lines, SizeIs(3));
   EXPECT_THAT(lines[1], StartsWith("0,1000000000.000000,too_few_beams,0,,,,,,,,,"));
   EXPECT_THAT(lines[2], StartsWith("1,1000000001.000000,too_few_beams,0,,,,,,,,,"));
-  EXPECT_THAT(fieldsOf(lines[1]), SizeIs(13));
+  EXPECT_THAT(fieldsOf(lines[1]), SizeIs(kColumns));
+  EXPECT_EQ(lines[1].substr(lines[1].size() - 10), ",0.0000,0,");  // match, listed, no covariance
 }
 
 TEST_F(PolylocLocalize, WritesCsvPictureAndIni) {

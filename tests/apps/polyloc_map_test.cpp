@@ -54,6 +54,24 @@ TEST_F(PolylocMap, JsonHasExactlyTheKeysOfTheDesign) {
   EXPECT_EQ(report["open_perimeter_m"], 0.0);
 }
 
+TEST_F(PolylocMap, NotesWhatWasAssumed) {
+  write("map.pgm", "P2 3 3 255\n0 0 0 0 254 0 205 205 0\n");
+  const std::string yaml = write("map.yaml", "image: map.pgm\nresolution: 1\norigin: [0, 0, 0]\n");
+  const Outcome outcome = map({yaml});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("polyloc-map: "), HasSubstr("map.yaml: note: "),
+                                 HasSubstr("'free_thresh'")));
+  EXPECT_THAT(outcome.out, HasSubstr("components    1"));
+}
+
+TEST_F(PolylocMap, ScalesWhatIsNotInMetres) {
+  const std::string input = write("mm.wkt", "POLYGON ((0 0, 4000 0, 4000 3000, 0 3000))");
+  EXPECT_THAT(map({input}).err, HasSubstr("--scale 0.001"));
+  EXPECT_EQ(map({input}).code, 1);
+  EXPECT_EQ(json::parse(map({input, "--scale", "0.001", "--json"}).out)["area_m2"], 12.0);
+  EXPECT_EQ(map({input, "--scale", "-1"}).code, 2);
+}
+
 TEST_F(PolylocMap, ConvertsToGeoJsonAndBack) {
   ASSERT_EQ(map({roomFile(), "-o", path("room.geojson")}).code, 0);
   const json collection = json::parse(readFile(path("room.geojson")));

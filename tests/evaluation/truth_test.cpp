@@ -44,6 +44,20 @@ RangeScan scanAt(double stamp) {
   return RangeScan({}, {0, 0}, stamp);
 }
 
+TEST_F(TruthTest, ReadsACompressedFile) {
+  // printf '5 1 2 0 0 0 0 1\n# end\n' | gzip
+  const std::string gzipped(
+      "\037\213\010\000\000\000\000\000\002\003\063\125\060\124\060\122\060\200\102\103\056\145\205"
+      "\324\274\024\056\000\264\217\222\257\026\000\000\000",
+      36);
+  const auto poses = loadTum(write(gzipped));
+  ASSERT_EQ(poses.size(), 1U);
+  EXPECT_EQ(poses[0].stamp, 5.0);
+  EXPECT_EQ(poses[0].pose_map_robot.y, 2.0);
+  EXPECT_THAT(formatErrorOf([&] { loadTum(write(gzipped.substr(0, 30))); }),
+              HasSubstr("truncated"));
+}
+
 TEST_F(TruthTest, ReadsPosesCommentsAndForeignLineEnds) {
   const auto poses =
       loadTum(write("# stamp x y z qx qy qz qw\r\n"

@@ -93,7 +93,6 @@ TEST(GeoJson, ErrorsNameThePath) {
   EXPECT_EQ(error("[[[0, 0], [1, 0], [1, 1], [5]]]"),
             "map.geojson: features[2].geometry.coordinates[0][3]: a position of 1 coordinates, "
             "expected [x, y]");
-  EXPECT_THAT(error("[[[0, 0, 0], [1, 0, 0]]]"), HasSubstr("coordinates[0][0]: a position of 3"));
   EXPECT_THAT(error("[[[0, 0], null]]"), HasSubstr("coordinates[0][1]: expected a position"));
   EXPECT_THAT(error("[[0, 0], [1, 0]]"), HasSubstr("coordinates[0][0]: expected a position"));
   EXPECT_THAT(error("[5]"), HasSubstr("coordinates[0]: expected an array"));
@@ -105,12 +104,6 @@ TEST(GeoJson, ErrorsNameTheFeatureOfAnUnknownKind) {
   EXPECT_EQ(errorOf(collection({kRoom, feature("door", "LineString", "[[0, 0], [1, 1]]")})),
             "map.geojson: features[1].properties.kind: unknown kind \"door\", expected \"free\", "
             "\"open\" or \"wall\"");
-  EXPECT_EQ(errorOf(collection({R"({"type": "Feature", "properties": {}, "geometry": null})"})),
-            "map.geojson: features[0].properties: has no \"kind\"");
-  EXPECT_EQ(errorOf(collection({R"({"type": "Feature", "properties": null, "geometry": null})"})),
-            "map.geojson: features[0].properties: expected an object");
-  EXPECT_THAT(errorOf(collection({R"({"type": "Feature", "geometry": null})"})),
-              HasSubstr("features[0]: has no \"properties\""));
   EXPECT_THAT(errorOf(collection({R"({"type": "Feature", "properties": {"kind": 1}})"})),
               HasSubstr("features[0].properties.kind: expected a string"));
   EXPECT_THAT(errorOf(collection({feature("free", "LineString", "[]")})),
@@ -118,9 +111,27 @@ TEST(GeoJson, ErrorsNameTheFeatureOfAnUnknownKind) {
   EXPECT_THAT(errorOf(collection({feature("wall", "Polygon", "[]")})),
               HasSubstr("expected \"LineString\" or \"MultiLineString\""));
   EXPECT_THAT(errorOf(collection({R"({"type": "Polygon"})"})), HasSubstr("expected \"Feature\""));
-  EXPECT_THAT(errorOf(collection(
-                  {R"({"type": "Feature", "properties": {"kind": "free"}, "geometry": null})"})),
-              HasSubstr("features[0].geometry: expected an object"));
+}
+
+TEST(GeoJson, ReadsWhatOthersWrite) {
+  const std::string polygon =
+      R"({"type": "Polygon", "coordinates": [[[0, 0, 7], [4, 0, 7], [4, 3, 7], [0, 0, 7]]]})";
+  const std::string unsaid = R"({"type": "Feature", "properties": {"name": "a"}, "geometry": )";
+  for (const std::string& text :
+       {polygon, R"({"type": "GeometryCollection", "geometries": [)" + polygon + "]}",
+        unsaid + polygon + "}", R"({"type": "Feature", "geometry": )" + polygon + "}",
+        collection({unsaid + polygon + "}",
+                    R"({"type": "Feature", "properties": {"kind": "wall"}, "geometry": null})"}),
+        collection({R"({"type": "Feature", "properties": null, "geometry": )" + polygon + "}",
+                    unsaid + R"({"type": "Point", "coordinates": [1, 1]}})"})}) {
+    Notes notes;
+    const RawMap map = parseGeoJson(text, "map.geojson", &notes);
+    ASSERT_EQ(map.polygons.size(), 1U) << text;
+    EXPECT_EQ(map.polygons[0].outer.size(), 3U) << text;
+    EXPECT_THAT(notes, testing::ElementsAre(HasSubstr("1 polygons are taken for free space")))
+        << text;
+  }
+  EXPECT_EQ(parse({kRoom}).polygons.size(), 1U);
 }
 
 TEST(GeoJson, ErrorsOfTheDocument) {
@@ -131,7 +142,12 @@ TEST(GeoJson, ErrorsOfTheDocument) {
   EXPECT_THAT(errorOf("[1, 1e999]"), HasSubstr("1e999"));
   EXPECT_THAT(errorOf("[]"), HasSubstr("expected an object"));
   EXPECT_THAT(errorOf("{}"), HasSubstr("has no \"type\""));
-  EXPECT_THAT(errorOf(R"({"type": "Feature"})"), HasSubstr("type: expected \"FeatureCollection\""));
+  EXPECT_THAT(errorOf(R"({"type": "Feature"})"), HasSubstr("has no \"geometry\""));
+  EXPECT_THAT(errorOf(R"({"type": "Topology"})"),
+              AllOf(HasSubstr("type: \"Topology\" is not \"FeatureCollection\""),
+                    HasSubstr("a map looks like {\"type\": \"Feature\"")));
+  EXPECT_THAT(errorOf(R"({"type": "Feature", "geometry": {"type": "Point"}})"),
+              AllOf(HasSubstr("holds no polygon"), HasSubstr("a map looks like")));
   EXPECT_THAT(errorOf(R"({"type": "FeatureCollection"})"), HasSubstr("has no \"features\""));
   EXPECT_THAT(errorOf(R"({"type": "FeatureCollection", "features": {}})"),
               HasSubstr("features: expected an array"));

@@ -12,6 +12,7 @@ namespace mrpt_polyloc {
 namespace {
 
 using mrpt::obs::CObservation2DRangeScan;
+using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr double kPi = 3.14159265358979323846;
@@ -85,12 +86,14 @@ TEST(ToRangeScan, TellsKindsByFlagAndRange) {
     double expected;
   };
   const std::vector<Case> cases = {
-      {2.0F, true, BeamKind::hit, 2.0},          {19.99F, true, BeamKind::hit, 19.99},
-      {20.0F, true, BeamKind::no_return, 20.0},  {81.9F, true, BeamKind::no_return, 20.0},
-      {81.9F, false, BeamKind::no_return, 20.0}, {3.0F, false, BeamKind::no_return, 20.0},
-      {0.0F, true, BeamKind::invalid, 0.0},      {0.0F, false, BeamKind::invalid, 0.0},
-      {-1.0F, true, BeamKind::invalid, 0.0},     {nan, true, BeamKind::invalid, 0.0},
-      {nan, false, BeamKind::invalid, 0.0},      {inf, true, BeamKind::invalid, 0.0},
+      {2.0F, true, BeamKind::hit, 2.0},           {19.59F, true, BeamKind::hit, 19.59},
+      {20.0F, true, BeamKind::no_return, 20.0},   {19.61F, true, BeamKind::no_return, 20.0},
+      {81.9F, true, BeamKind::no_return, 20.0},   {81.9F, false, BeamKind::no_return, 20.0},
+      {19.61F, false, BeamKind::no_return, 20.0}, {3.0F, false, BeamKind::invalid, 0.0},
+      {0.0F, true, BeamKind::invalid, 0.0},       {0.0F, false, BeamKind::invalid, 0.0},
+      {-1.0F, true, BeamKind::invalid, 0.0},      {nan, true, BeamKind::invalid, 0.0},
+      {nan, false, BeamKind::invalid, 0.0},       {inf, true, BeamKind::no_return, 20.0},
+      {inf, false, BeamKind::no_return, 20.0},    {-inf, true, BeamKind::invalid, 0.0},
       {-inf, false, BeamKind::invalid, 0.0}};
   auto observation = plainScan(cases.size(), kPi);
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -104,14 +107,15 @@ TEST(ToRangeScan, TellsKindsByFlagAndRange) {
   }
 }
 
-TEST(ToRangeScan, WithoutAMaximumRangeTheReadingStands) {
-  auto observation = plainScan(2, kPi);
+TEST(ToRangeScan, WithoutAMaximumRangeThereAreOnlyHits) {
+  auto observation = plainScan(3, kPi);
   observation.maxRange = 0.0F;
   observation.setScanRangeValidity(1, false);
+  observation.setScanRange(2, std::numeric_limits<float>::infinity());
   const RangeScan scan = toRangeScan(observation);
   EXPECT_EQ(scan.beams()[0].kind, BeamKind::hit);
-  EXPECT_EQ(scan.beams()[1].kind, BeamKind::no_return);
-  EXPECT_DOUBLE_EQ(scan.beams()[1].range, 2.0);
+  EXPECT_EQ(scan.beams()[1].kind, BeamKind::invalid);
+  EXPECT_EQ(scan.beams()[2].kind, BeamKind::invalid);
 }
 
 TEST(ToRangeScan, OneBeamLooksAheadAndNoneIsAScanToo) {
@@ -134,20 +138,85 @@ TEST(ToRangeScan, KeepsStampAndLabel) {
   EXPECT_EQ(toRangeScan(observation).stamp(), 0.0);
 }
 
-TEST(ToRangeScan, RefusesASensorThatIsNotPlanar) {
+TEST(ToRangeScan, ALaserUpsideDownHasMirroredBearings) {
+  auto upright = plainScan(181, kPi);
+  for (std::size_t i = 0; i < 181; ++i) {
+    upright.setScanRange(i, 1.0F + 0.01F * static_cast<float>(i));
+  }
+  upright.sensorPose = mrpt::poses::CPose3D(0.2, 0.1, 0.3, 0.5, 0, 0);
+  auto hanging = upright;
+  for (std::size_t i = 0; i < 181; ++i) hanging.setScanRange(i, upright.getScanRange(180 - i));
+  for (const double roll : {kPi, -kPi}) {
+    hanging.sensorPose.setYawPitchRoll(0.5, 0, roll);
+    const RangeScan a = toRangeScan(upright), b = toRangeScan(hanging);
+    for (std::size_t i = 0; i < 181; ++i) {
+      EXPECT_NEAR(a.beams()[i].bearing, b.beams()[180 - i].bearing, 1e-6);
+      EXPECT_EQ(a.beams()[i].range, b.beams()[180 - i].range);
+    }
+  }
+}
+
+// MRPT's points are the oracle, seen from above.
+TEST(ToRangeScan, ATiltedLaserIsProjectedToTheFloor) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> tilt(-0.11, 0.11);
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    auto observation = test::randomObservation(random, 2 + random() % 300);
+    observation.maxRange = 1000.0F;
+    const double roll = tilt(random) + (repeat % 2 == 0 ? 0.0 : kPi);
+    observation.sensorPose = mrpt::poses::CPose3D(0.3, -0.2, 100.0, 1.0, tilt(random), roll);
+    mrpt::maps::CSimplePointsMap points;
+    points.insertionOptions.minDistBetweenLaserPoints = 0.0F;
+    points.insertionOptions.isPlanarMap = false;
+    points.insertionOptions.also_interpolate = false;
+    points.insertObservation(observation);
+    const RangeScan scan = toRangeScan(observation);
+    ASSERT_EQ(points.size(), scan.hitCount());
+    std::size_t next = 0;
+    for (const Beam& beam : scan.beams()) {
+      if (beam.kind != BeamKind::hit) continue;
+      float x = 0, y = 0;
+      points.getPoint(next++, x, y);
+      EXPECT_NEAR(scan.sensor().x + beam.range * std::cos(beam.bearing), x, 1e-4);
+      EXPECT_NEAR(scan.sensor().y + beam.range * std::sin(beam.bearing), y, 1e-4);
+    }
+  }
+}
+
+// 0.3 m above the floor and 4 degrees down: the middle beam meets the floor at 4.30 m.
+TEST(ToRangeScan, ReadingsOfTheFloorSayNothing) {
+  const double down = 4.0 * kPi / 180;
+  auto observation = plainScan(3, kPi);
+  observation.sensorPose = mrpt::poses::CPose3D(0, 0, 0.3, 0, down, 0);
+  EXPECT_EQ(toRangeScan(observation).beams()[1].kind, BeamKind::hit);
+  EXPECT_NEAR(toRangeScan(observation).beams()[1].range, 2.0 * std::cos(down), 1e-6);
+  for (const float range : {4.2F, 20.0F, std::numeric_limits<float>::infinity()}) {
+    observation.setScanRange(1, range);
+    EXPECT_EQ(toRangeScan(observation).beams()[1].kind, BeamKind::invalid) << range;
+  }
+  observation.setScanRange(0, 20.0F);  // a beam to the side stays level
+  EXPECT_EQ(toRangeScan(observation).beams()[0].kind, BeamKind::no_return);
+  observation.sensorPose.z() = 0.0;  // a height that says nothing
+  observation.setScanRange(1, 4.2F);
+  EXPECT_EQ(toRangeScan(observation).beams()[1].kind, BeamKind::hit);
+}
+
+TEST(ToRangeScan, RefusesASensorThatIsTiltedTooMuch) {
   auto observation = plainScan(3, kPi);
   observation.sensorLabel = "tilted";
-  observation.sensorPose.setYawPitchRoll(0.1, 0.0009, -0.0009);
-  EXPECT_EQ(refusalOf(observation), "");
-  observation.sensorPose.setYawPitchRoll(0.1, 0.0, 0.01);
-  EXPECT_THAT(refusalOf(observation), HasSubstr("not planar"));
-  EXPECT_THAT(refusalOf(observation), HasSubstr("tilted"));
-  observation.sensorPose.setYawPitchRoll(0.1, 0.2, 0.0);
-  EXPECT_THAT(refusalOf(observation), HasSubstr("not planar"));
-  observation.sensorPose.setYawPitchRoll(0.1, 0.0, kPi);
-  EXPECT_THAT(refusalOf(observation), HasSubstr("upside down"));
-  observation.sensorPose.setYawPitchRoll(0.1, 0.0, -kPi);
-  EXPECT_THAT(refusalOf(observation), HasSubstr("upside down"));
+  const auto refusalAt = [&](double z, double pitch_deg, double roll_deg) {
+    observation.sensorPose =
+        mrpt::poses::CPose3D(0, 0, z, 0.1, pitch_deg * kPi / 180, roll_deg * kPi / 180);
+    return refusalOf(observation);
+  };
+  EXPECT_EQ(refusalAt(0, 5.0, 0), "");
+  EXPECT_THAT(refusalAt(0, 6.0, 0),
+              AllOf(HasSubstr("tilted by 6 deg"), HasSubstr("2.87"), HasSubstr("'tilted'")));
+  EXPECT_THAT(refusalAt(0, 0, 174.0), HasSubstr("tilted by 6 deg"));
+  EXPECT_EQ(refusalAt(0.6, 9.0, 0), "");
+  EXPECT_EQ(refusalAt(0, -9.0, 0), "");  // up: no beam of this half circle meets the floor
+  EXPECT_THAT(refusalAt(0, -11.0, 0), HasSubstr("tilted by 11 deg"));
+  EXPECT_THAT(refusalAt(5.0, 11.0, 0), HasSubstr("at most 10 deg"));
 }
 
 TEST(ToRangeScan, RefusesWhatIsNotFinite) {

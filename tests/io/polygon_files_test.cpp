@@ -58,6 +58,52 @@ TEST(PolygonFiles, InvalidMapsNameTheFileAndThePlace) {
             nothing.path() + ": the map has no free space");
 }
 
+TEST(PolygonFiles, UnitesRoomsSideBySide) {
+  const std::string left = "POLYGON((0 0, 5 0, 5 8, 0 8, 0 0))\n";
+  const TempFile halves(".wkt", left + "POLYGON((5 0, 10 0, 10 8, 5 8, 5 0))\n");
+  Notes notes;
+  const RepairedMap map = loadPolygonMap(halves.path(), &notes);
+  EXPECT_DOUBLE_EQ(map.map.area(), 80.0);
+  EXPECT_EQ(map.map.components().size(), 1U);
+  EXPECT_FALSE(map.defects.empty());
+  EXPECT_THAT(notes,
+              testing::ElementsAre(AllOf(HasSubstr("2 polygons"), HasSubstr("united to 1"))));
+
+  // Rooms with a wall of 0.1 m between them, and a door of 1 m in it.
+  const TempFile door(".wkt", left +
+                                  "POLYGON((5.1 0, 10 0, 10 8, 5.1 8, 5.1 0))\n"
+                                  "POLYGON((4.9 3, 5.2 3, 5.2 4, 4.9 4, 4.9 3))\n");
+  EXPECT_NEAR(loadPolygonMap(door.path()).map.area(), 79.2 + 0.1, 1e-9);
+  EXPECT_EQ(loadPolygonMap(door.path()).map.components().size(), 1U);
+  // Rooms that do not touch stay apart, without a word.
+  const TempFile apart(".wkt", left + "POLYGON((5.1 0, 10 0, 10 8, 5.1 8, 5.1 0))\n");
+  notes.clear();
+  EXPECT_EQ(loadPolygonMap(apart.path(), &notes).map.components().size(), 2U);
+  EXPECT_TRUE(notes.empty());
+}
+
+TEST(PolygonFiles, RefusesWhatIsNotInMetres) {
+  const auto error = [](const TempFile& file, double scale = 1.0) {
+    try {
+      loadPolygonMap(file.path(), nullptr, scale);
+    } catch (const FormatError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  const TempFile millimetres(".wkt", "POLYGON ((0 0, 11000 0, 11000 8500, 0 8500))");
+  EXPECT_THAT(error(millimetres), AllOf(HasSubstr("93.5 square kilometres"),
+                                        HasSubstr("millimetres? Then use --scale 0.001")));
+  EXPECT_EQ(error(millimetres, 0.001), "");
+  EXPECT_NEAR(loadPolygonMap(millimetres.path(), nullptr, 0.001).map.area(), 93.5, 1e-9);
+  const TempFile degrees(".wkt", "POLYGON ((7 43, 7.0001 43, 7.0001 43.0001, 7 43.0001))");
+  EXPECT_THAT(error(degrees), AllOf(HasSubstr("degrees"), HasSubstr("ogr2ogr")));
+  const TempFile hall(".wkt", "POLYGON ((0 0, 1900 0, 1900 1900, 0 1900))");
+  EXPECT_EQ(error(hall), "");
+  EXPECT_THROW(loadPolygonMap(hall.path(), nullptr, 0.0), InvalidParamsError);
+  EXPECT_THAT(messageOf<FormatError>([] { loadPolygonMap("plan.dxf"); }), HasSubstr("ogr2ogr"));
+}
+
 TEST(PolygonFiles, WritesByExtensionOnly) {
   EXPECT_THAT(messageOf<FormatError>([] { toText(squareMap(), ".svg"); }),
               AllOf(HasSubstr(".svg"), HasSubstr(".geojson or .wkt")));

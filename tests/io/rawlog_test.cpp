@@ -22,6 +22,7 @@ namespace {
 using mrpt::obs::CObservation2DRangeScan;
 using test::formatErrorOf;
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 class Rawlog : public test::QuietTest {
@@ -29,7 +30,9 @@ class Rawlog : public test::QuietTest {
   /// The message when `bytes` are read as a rawlog; "" if they can be.
   std::string errorOf(const std::string& bytes, const std::string& label = {}) {
     test::writeFile(path_, bytes);
-    return formatErrorOf([&] { loadRawlog(path_, label); });
+    ScanFileOptions options = test::ofSensor(label);
+    options.strict = true;
+    return formatErrorOf([&] { loadRawlog(path_, options); });
   }
   std::vector<CObservation2DRangeScan> observations(std::size_t count, std::size_t beams = 12,
                                                     const std::string& label = "LASER") {
@@ -119,15 +122,16 @@ TEST_F(Rawlog, TellsSensorsApart) {
   auto scans = observations(4, 10, "front");
   scans[1].sensorLabel = "rear";
   scans[2].sensorLabel = "";
-  scans[1].sensorPose.setYawPitchRoll(0, 0, 1);  // not planar, which matters only if it is chosen
+  scans[1].sensorPose.setYawPitchRoll(0, 0, 1);  // tilted, which matters only if it is chosen
   const std::string bytes = bytesOf(scans);
   EXPECT_THAT(errorOf(bytes), AllOf(HasSubstr("several sensors"), HasSubstr("'front' (2"),
                                     HasSubstr("'rear' (1"), HasSubstr("'' (1")));
   EXPECT_THAT(errorOf(bytes, "top"), AllOf(HasSubstr("'top'"), HasSubstr("'front' (2")));
   EXPECT_THAT(errorOf(bytes, "rear"),
-              AllOf(HasSubstr("test.rawlog: object 1"), HasSubstr("not planar")));
+              AllOf(HasSubstr("test.rawlog: object 1"), HasSubstr("tilted")));
   EXPECT_EQ(errorOf(bytes, "front"), "");
-  EXPECT_TRUE(test::sameScans(loadRawlog(path_, "front"), converted({scans[0], scans[3]})));
+  EXPECT_TRUE(
+      test::sameScans(loadRawlog(path_, test::ofSensor("front")), converted({scans[0], scans[3]})));
 }
 
 TEST_F(Rawlog, NamesAnUnknownClassAndItsObject) {
@@ -220,6 +224,34 @@ TEST_F(Rawlog, ReadsConcatenatedGzipFiles) {
   const auto first = observations(3), second = observations(2);
   EXPECT_EQ(errorOf(test::gzipped(bytesOf(first)) + test::gzipped(bytesOf(second))), "");
   EXPECT_EQ(loadRawlog(path_).size(), 5U);
+}
+
+// Robots lose power: what is whole is used, and what is missing is told.
+TEST_F(Rawlog, ReadsTheWholePartOfAFileThatIsCutShort) {
+  const auto scans = observations(4, 5);
+  const std::string bytes = bytesOf(scans);
+  for (const bool zipped : {false, true}) {
+    const std::string whole = zipped ? test::gzipped(bytes) : bytes;
+    std::size_t cut_files = 0;
+    for (std::size_t size = 30; size < whole.size(); ++size) {
+      test::writeFile(path_, whole.substr(0, size));
+      Notes notes;
+      std::vector<RangeScan> read;
+      if (!formatErrorOf([&] { read = loadRawlog(path_, {}, &notes); }).empty()) continue;
+      std::vector<RangeScan> expected = converted(scans);
+      ASSERT_LE(read.size(), expected.size());
+      expected.erase(expected.begin() + static_cast<std::ptrdiff_t>(read.size()), expected.end());
+      ASSERT_TRUE(test::sameScans(read, expected)) << size;
+      if (notes.empty()) {
+        ASSERT_FALSE(zipped) << size;  // a cut between two objects of a plain file
+        continue;
+      }
+      ASSERT_THAT(notes, ElementsAre(AllOf(HasSubstr("cut short"), HasSubstr("--strict"),
+                                           HasSubstr(std::to_string(read.size()) + " objects"))));
+      ++cut_files;
+    }
+    EXPECT_GT(cut_files, whole.size() / 2) << zipped;
+  }
 }
 
 // Without a checksum damage of a value passes; nothing may crash or print.

@@ -1,5 +1,6 @@
 #include "tests/support/bridge_files.h"
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/io/replay_log.h>
 
 #include <gmock/gmock.h>
@@ -56,11 +57,13 @@ class ReplayLog : public test::QuietTest {
   std::vector<ReplayStep> load(const std::string& bytes, const std::string& label = {},
                                const OdometryNoise& noise = {}) {
     test::writeFile(path_, test::gzipped(bytes));
-    return loadReplayLog(path_, label, noise);
+    return loadReplayLog(path_, test::ofSensor(label), noise);
   }
   std::string errorOf(const std::string& bytes, const std::string& label = {}) {
     test::writeFile(path_, bytes);
-    return formatErrorOf([&] { loadReplayLog(path_, label); });
+    ScanFileOptions options = test::ofSensor(label);
+    options.strict = true;
+    return formatErrorOf([&] { loadReplayLog(path_, options); });
   }
   static void expectMovement(const ReplayStep& step, const CPose2D& expected) {
     ASSERT_TRUE(step.action);
@@ -162,6 +165,22 @@ TEST_F(ReplayLog, ReadsAWholeLogStoredAsOneObject) {
   EXPECT_EQ(load(test::serialised(log)).size(), 2U);
 }
 
+TEST_F(ReplayLog, TellsTheObservationsWhatIsKnownOfTheSensor) {
+  test::writeFile(path_, scan() + scan() + scan());
+  ScanFileOptions options;
+  options.readings.max_range = 20.0;
+  options.readings.min_range = 5.0;
+  const auto steps = loadReplayLog(path_, options);
+  ASSERT_EQ(steps.size(), 3U);
+  for (const ReplayStep& step : steps) {
+    EXPECT_EQ(step.laser->maxRange, 20.0F);
+    EXPECT_TRUE(test::sameScans({toRangeScan(*step.laser)}, {step.scan}));
+    for (const Beam& beam : step.scan.beams()) {
+      EXPECT_TRUE(beam.kind == BeamKind::invalid || (beam.range >= 5.0 && beam.range <= 20.0));
+    }
+  }
+}
+
 TEST_F(ReplayLog, RefusesWhatItCannotReplay) {
   EXPECT_THAT(errorOf(odometry(a_)), AllOf(HasSubstr(path_), HasSubstr("no")));
   EXPECT_THAT(errorOf(scan() + scan().substr(0, 60)),
@@ -177,7 +196,7 @@ TEST_F(ReplayLog, RefusesWhatItCannotReplay) {
   auto tilted = test::randomObservation(random_, 5);
   tilted.sensorPose.setFromValues(0, 0, 0, 0, 0.3, 0);
   EXPECT_THAT(errorOf(scan("LASER") + test::serialised(tilted)),
-              AllOf(HasSubstr("object 1"), HasSubstr("not planar")));
+              AllOf(HasSubstr("object 1"), HasSubstr("tilted by 17")));
 }
 
 TEST_F(ReplayLog, ReplaysScansThatSayNothing) {

@@ -5,14 +5,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace mrpt_polyloc {
 namespace {
 
 using test::formatErrorOf;
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 const std::string kYaml =
     "image: map.pgm\nresolution: 0.05\norigin: [-1.5, 2.25, 0.5]\nnegate: 0\n"
@@ -52,7 +56,16 @@ class RosMap : public test::QuietTest {
     return formatErrorOf([&] { load(yaml, image, name); });
   }
 
+  /// Draws, and keeps the notes in `notes_`.
+  std::string drawNoted(const std::string& yaml, const std::vector<int>& levels) {
+    test::writeFile(dir_.file("map.pgm"), pgmRow(levels));
+    test::writeFile(path_, yaml);
+    notes_.clear();
+    return drawing(loadRosMap(path_, &notes_));
+  }
+
   std::string path_ = dir_.file("map.yaml");
+  Notes notes_;
 };
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -156,14 +169,12 @@ TEST_F(RosMap, NamesTheKeyThatIsWrong) {
                 AllOf(HasSubstr("map.yaml: line 3: "), HasSubstr("'origin'")))
         << bad;
   }
-  EXPECT_THAT(errorOf(replaced(kYaml, "0.196", "0.7")), HasSubstr("'free_thresh'"));
   EXPECT_THAT(errorOf(replaced(kYaml, "0.65", "high")), HasSubstr("'occupied_thresh'"));
 }
 
 TEST_F(RosMap, NamesTheLineThatIsNoYaml) {
-  for (const std::string bad :
-       {"origin: [1, 2\n", "key\n", "  indented: 1\n", "a: {b: 1}\n", "a: [[1], 2]\n", "a: 'x\n",
-        "a: 'x' y\n", "a: [1] 2\n", "a: [1]\n- 2\n", "a: 1\n- 2\n", "a: |\n"}) {
+  for (const std::string bad : {"origin: [1, 2\n", "key\n", "  indented: 1\n", "a: 'x\n",
+                                "a: 'x' y\n", "a: [1] 2\n", "a: [1]\n- 2\n", "a: 1\n- 2\n"}) {
     EXPECT_THAT(errorOf(kYaml + bad), testing::MatchesRegex(".*map.yaml: line [789]: .*")) << bad;
   }
   EXPECT_THAT(errorOf("- 1\n"), HasSubstr("line 1: "));
@@ -175,10 +186,98 @@ TEST_F(RosMap, NamesYamlAndImageIfTheImageIsMissingOrBad) {
   EXPECT_THAT(errorOf(replaced(kYaml, "map.pgm", "gone.pgm")),
               AllOf(HasSubstr("map.yaml: "), HasSubstr("/gone.pgm")));
   EXPECT_THAT(errorOf(replaced(kYaml, "map.pgm", ".")), HasSubstr("map.yaml: "));
-  EXPECT_THAT(errorOf(replaced(kYaml, "map.pgm", "map.bmp"), "BM", "map.bmp"),
-              AllOf(HasSubstr("map.bmp"), HasSubstr(".pgm and .png")));
-  EXPECT_THAT(errorOf(kYaml, "P6 1 1 255\nabc"),
-              AllOf(HasSubstr("map.yaml: "), HasSubstr("map.pgm: not a PGM")));
+  EXPECT_THAT(errorOf(kYaml, "hello"), AllOf(HasSubstr("map.yaml: "), HasSubstr("map.pgm"),
+                                             HasSubstr(".pgm, .ppm, .png, .bmp")));
+  EXPECT_THAT(errorOf(kYaml, "BM"), HasSubstr("map.pgm: truncated"));
+  EXPECT_THAT(errorOf(kYaml, "P4 1 1\na"), HasSubstr("map.pgm: a netpbm image that is not"));
+}
+
+TEST_F(RosMap, WhatMapSaverLeavesUnknownStaysUnknown) {
+  const std::string fourth = replaced(kYaml, "0.196", "0.25");
+  for (const std::string& yaml : {fourth, replaced(kYaml, "free_thresh: 0.196\n", "")}) {
+    EXPECT_EQ(drawNoted(yaml, {0, 205, 254, 255}), "#?..");
+    EXPECT_THAT(notes_, ElementsAre(AllOf(HasSubstr("'free_thresh' 0.25"), HasSubstr("205"))));
+  }
+  EXPECT_EQ(drawNoted(kYaml, {0, 205, 254}), "#?.");
+  EXPECT_THAT(notes_, IsEmpty());
+  // Of an image with other levels, or another mode, the thresholds are meant.
+  EXPECT_EQ(drawNoted(fourth, {0, 205, 254, 100}), "#..?");
+  EXPECT_THAT(notes_, IsEmpty());
+  EXPECT_EQ(drawNoted(fourth + "mode: scale\n", {0, 205, 254}), "#..");
+}
+
+TEST_F(RosMap, TellsWhereNearlyNothingIsUnknown) {
+  EXPECT_EQ(drawNoted(replaced(kYaml, "0.196", "0.3"), {0, 200, 254}), "#..");
+  EXPECT_THAT(notes_, ElementsAre(AllOf(HasSubstr("66.7 % is free, 33.3 % occupied, 0 % unknown"),
+                                        HasSubstr("0 to 254"), HasSubstr("'free_thresh' 0.3"))));
+}
+
+TEST_F(RosMap, AsksForOccupiedFirstWhereThresholdsAreCrossed) {
+  const std::string crossed = replaced(replaced(kYaml, "0.196", "0.9"), "0.65", "0.1");
+  EXPECT_EQ(drawNoted(crossed, {0, 205, 254}), "##.");
+  EXPECT_THAT(notes_.front(), AllOf(HasSubstr("crossed"), HasSubstr("0.9"), HasSubstr("0.1")));
+}
+
+TEST_F(RosMap, TakesAYawThatIsNanForNone) {
+  for (const char* nan : {"nan", "-nan", ".nan", "NaN"}) {
+    const auto bitmap = load(replaced(kYaml, "0.5]", std::string(nan) + "]"), pgmRow({0, 255, 90}));
+    EXPECT_EQ(bitmap.pose_map_bitmap.phi, 0.0);
+    drawNoted(replaced(kYaml, "0.5]", std::string(nan) + "]"), {0, 205, 254});
+    EXPECT_THAT(notes_, ElementsAre(HasSubstr("taken for 0")));
+  }
+  EXPECT_THAT(errorOf(replaced(kYaml, "0.5]", "banana]")), HasSubstr("line 3: "));
+}
+
+TEST_F(RosMap, PassesOverWhatOtherProgramsWriteIntoTheYaml) {
+  EXPECT_EQ(drawNoted("%YAML 1.2\n---\n" + kYaml + "extra:\n  nested: {a: [1, [2]]}\n", {0, 254}),
+            "#.");
+  EXPECT_THAT(errorOf(replaced(kYaml, "0.05", "{a: 1}")), HasSubstr("line 2: 'resolution'"));
+  EXPECT_THAT(errorOf(replaced(kYaml, "[-1.5, 2.25, 0.5]", "[[1], 2, 3]")),
+              HasSubstr("line 3: 'origin'"));
+}
+
+TEST_F(RosMap, FindsTheImageOfAnotherMachine) {
+  const std::string far = replaced(kYaml, "map.pgm", "/no/such/folder/map.pgm");
+  EXPECT_EQ(drawNoted(far, {0, 254}), "#.");
+  EXPECT_THAT(notes_.front(), AllOf(HasSubstr("/no/such/folder/map.pgm"), HasSubstr("taken is")));
+  EXPECT_EQ(drawNoted(replaced(kYaml, "map.pgm", "~/no/map.pgm"), {0, 254}), "#.");
+  EXPECT_THAT(errorOf(replaced(kYaml, "map.pgm", "/no/such/file.pgm")),
+              HasSubstr("no file /no/such/file.pgm"));
+  EXPECT_THAT(errorOf(replaced(kYaml, "map.pgm", "sub/map.pgm")), HasSubstr("there is no file"));
+}
+
+TEST_F(RosMap, ExpandsTheHomeFolder) {
+  const char* const home = std::getenv("HOME");
+  const std::string before = home == nullptr ? "" : home;
+  setenv("HOME", dir_.file("").c_str(), 1);
+  EXPECT_EQ(drawNoted(replaced(kYaml, "map.pgm", "~/map.pgm"), {0, 205, 254}), "#?.");
+  EXPECT_THAT(notes_, IsEmpty());
+  setenv("HOME", before.c_str(), 1);
+}
+
+TEST_F(RosMap, TellsTheKindOfImageByItsFirstBytes) {
+  EXPECT_EQ(drawing(load(kYaml, test::pngFile(2, 1, 8, 0, std::string("\0\xff", 2)))), "#.");
+  EXPECT_EQ(drawing(load(kYaml, std::string("P6 3 1 255\n\0\0\0\xfe\xfe\xfe\xff\0\0", 20))), "#.#");
+  EXPECT_EQ(drawing(load(kYaml, "P3 2 1 9 0 0 0 9 9 9")), "#.");
+  const std::string cases = std::string(POLYLOC_SOURCE_DIR) + "/tests/io/cases/map.";
+  const std::string png = drawing(load(kYaml, test::readFile(cases + "png")));
+  EXPECT_GT(std::count(png.begin(), png.end(), '.'), 10000);
+  EXPECT_EQ(drawing(load(kYaml, test::readFile(cases + "bmp"))), png);
+  const std::string jpg = drawing(load(kYaml, test::readFile(cases + "jpg")));
+  ASSERT_EQ(jpg.size(), png.size());
+  std::size_t free_taken_for_wall = 0, free = 0;
+  for (std::size_t i = 0; i < png.size(); ++i) {
+    free += png[i] == '.';
+    free_taken_for_wall += png[i] == '.' && jpg[i] == '#';
+  }
+  EXPECT_LT(100 * free_taken_for_wall, free);
+}
+
+TEST_F(RosMap, SaysWhatItSawOfAGreyMap) {
+  drawNoted(kYaml, {128, 128, 128, 90, 190});
+  EXPECT_THAT(rosMapShares(path_),
+              AllOf(HasSubstr("0 % is free, 0 % occupied, 100 % unknown"), HasSubstr("90 to 190"),
+                    HasSubstr("'free_thresh: 0.48' and 'occupied_thresh: 0.52'")));
 }
 
 TEST_F(RosMap, EveryTruncationOfTheYamlIsRefusedOrChangesNoLine) {

@@ -45,7 +45,7 @@ TEST(Wkt, EmptyGeometriesCountForNothing) {
 TEST(Wkt, ErrorsNameFileLineAndColumn) {
   EXPECT_EQ(errorOf("POLYGON ((0 0, 1 0, 1 1))\nPOINT (1 2)"),
             "plan.wkt: line 2, column 1: geometry type POINT: only POLYGON and MULTIPOLYGON can be "
-            "a map");
+            "a map, as POLYGON ((0 0, 10 0, 10 8, 0 8, 0 0)) in metres");
   EXPECT_EQ(errorOf("POLYGON ((0 0, 1 0,\n  x 1))"),
             "plan.wkt: line 2, column 3: expected a number");
   EXPECT_EQ(errorOf(""), "plan.wkt: line 1, column 1: the file is empty");
@@ -53,9 +53,10 @@ TEST(Wkt, ErrorsNameFileLineAndColumn) {
 }
 
 TEST(Wkt, RefusesWhatIsNotAMap) {
-  EXPECT_THAT(errorOf("POLYGON Z ((0 0 0, 1 0 0, 1 1 0))"), HasSubstr("column 9: Z coordinates"));
-  EXPECT_THAT(errorOf("POLYGON zm ((0 0 0 0))"), HasSubstr("ZM coordinates"));
-  EXPECT_THAT(errorOf("POLYGON ((0 0 0, 1 0 0, 1 1 0))"), HasSubstr("a third coordinate"));
+  EXPECT_THAT(errorOf("POLYGON ((0 0 0 0 0, 1 0, 1 1))"), HasSubstr("expected ',' or ')'"));
+  EXPECT_THAT(errorOf("POLYGON ((0 0, 1 0, 1 1));;"), HasSubstr("text after the end"));
+  EXPECT_THAT(errorOf("GEOMETRYCOLLECTION (POINT (1 2))"),
+              HasSubstr("column 21: geometry type POINT"));
   EXPECT_THAT(errorOf("POLYGON ((0 0, 1 0, nan 1))"), HasSubstr("not finite"));
   EXPECT_THAT(errorOf("POLYGON ((0 0, 1 0, 1 -inf))"), HasSubstr("not finite"));
   EXPECT_THAT(errorOf("POLYGON ((0 0, 1 0, 1 1e999))"), HasSubstr("out of range"));
@@ -71,11 +72,30 @@ TEST(Wkt, RefusesWhatIsNotAMap) {
   EXPECT_THAT(errorOf("POLYGON EMPTYNESS"), HasSubstr("expected '(' or EMPTY"));
   EXPECT_THAT(errorOf("POLYGON ((0,0, 1 0, 1 1))"), HasSubstr("expected a number"));
   EXPECT_THAT(errorOf("POLYGON ((0 0; 1 0; 1 1))"), HasSubstr("expected ',' or ')'"));
-  EXPECT_THAT(errorOf("SRID=4326;POLYGON ((0 0, 1 0, 1 1))"), HasSubstr("geometry type SRID"));
+  EXPECT_THAT(errorOf("SRID=4326;POLYGON ((0 0, 1 0, 1 1))"),
+              HasSubstr("column 1: SRID 4326 is degrees"));
   EXPECT_THAT(errorOf("MULTIPOLYGON ((0 0, 1 0, 1 1))"), HasSubstr("expected '('"));
   EXPECT_THAT(errorOf("{\"verts\": []}"), HasSubstr("expected POLYGON or MULTIPOLYGON"));
   EXPECT_THAT(errorOf(std::string("POLYGON\0((0 0, 1 0, 1 1))", 25)), HasSubstr("expected '('"));
   EXPECT_THAT(errorOf("POLYGON ((+-1 0, 1 0, 1 1))"), HasSubstr("expected a number"));
+}
+
+TEST(Wkt, ReadsWhatOthersWrite) {
+  for (const char* text :
+       {"POLYGON Z ((0 0 5, 1 0 5, 1 1 5))", "POLYGONZ((0 0 5,1 0 5,1 1 5))",
+        "POLYGON zm ((0 0 1 2, 1 0 1 2, 1 1 1 2))", "POLYGON M ((0 0 1, 1 0 1, 1 1 1))",
+        "POLYGON ((0 0 5, 1 0 5, 1 1 5))", "POLYGON ((0 0, 1 0, 1 1));",
+        "SRID=25832;POLYGON ((0 0, 1 0, 1 1))", "srid=0; polygon ((0 0, 1 0, 1 1)) ;",
+        "GEOMETRYCOLLECTION (POLYGON ((0 0, 1 0, 1 1)), POLYGON EMPTY)",
+        "GEOMETRYCOLLECTION Z (GEOMETRYCOLLECTION (MULTIPOLYGON (((0 0 1, 1 0 1, 1 1 1)))))"}) {
+    const RawMap map = parseWkt(text, "plan.wkt");
+    ASSERT_EQ(map.polygons.size(), 1U) << text;
+    ASSERT_EQ(map.polygons[0].outer.size(), 3U) << text;
+    EXPECT_EQ(map.polygons[0].outer.vertices[1], TPoint2D(1, 0)) << text;
+  }
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "GEOMETRYCOLLECTION (";
+  EXPECT_THAT(errorOf(deep), HasSubstr("more than 100 collections"));
 }
 
 TEST(Wkt, RoundTripIsExact) {

@@ -29,9 +29,9 @@ inline void expectConsistent(const LocalizationResult& result, std::size_t most 
       EXPECT_GE(h.z_score, result.hypotheses[i - 1].z_score);
     }
   }
-  if (answered) {
-    EXPECT_NEAR(sum, 1.0, 1e-9);
-  }
+  EXPECT_NEAR(sum, result.listed, 1e-9);
+  EXPECT_LE(result.listed, 1.0 + 1e-9);
+  EXPECT_EQ(result.listed > 0.0, answered);
 }
 
 /// A localizer of the asymmetric room, built once for all tests of a program.

@@ -119,8 +119,9 @@ mrpt::obs::CObservation2DRangeScan randomObservation(std::mt19937& random, std::
   scan.timestamp = mrpt::Clock::fromDouble(1.6e9 + range(random));
   scan.resizeScanAndAssign(beams, 0.0F, false);
   for (std::size_t i = 0; i < beams; ++i) {
-    scan.setScanRange(i, range(random));
-    scan.setScanRangeValidity(i, random() % 8 != 0);
+    const float reading = range(random);
+    scan.setScanRange(i, reading);
+    scan.setScanRangeValidity(i, random() % 8 != 0 && reading < scan.maxRange);
   }
   return scan;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/io/scan_files.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <gtest/gtest.h>
@@ -55,6 +56,13 @@ std::string formatErrorOf(const std::function<void()>& action);
 /// A scan of random ranges and flags with this label.
 mrpt::obs::CObservation2DRangeScan randomObservation(std::mt19937& random, std::size_t beams,
                                                      const std::string& label = "LASER");
+
+/// To read the scans of one sensor only.
+inline ScanFileOptions ofSensor(const std::string& label) {
+  ScanFileOptions options;
+  options.sensor_label = label;
+  return options;
+}
 
 /// Whether two lists of scans are the same in all but rounding.
 bool sameScans(const std::vector<RangeScan>& a, const std::vector<RangeScan>& b);

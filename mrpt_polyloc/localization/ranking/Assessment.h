@@ -15,6 +15,7 @@ struct Assessment {
   double match_probability = 0.0;         ///< see LocalizationResult
   std::optional<MatchFeatures> features;  ///< of the best answer, if there is one
   std::vector<Hypothesis> hypotheses;     ///< best first
+  double listed = 0.0;                    ///< see LocalizationResult
 };
 
 }  // namespace mrpt_polyloc

@@ -9,7 +9,8 @@ namespace mrpt_polyloc {
 struct Hypothesis {
   mrpt::math::TPose2D pose_map_robot;      ///< of the ROBOT, not its sensor [m, rad]
   mrpt::math::CMatrixDouble33 covariance;  ///< of (x, y, phi) of the robot [m, rad]
-  /// Probability that this is the pose, if one of the hypotheses is; all weights sum to 1.
+  /// Probability that this is the pose, if the scan was taken in this map: a share of the whole
+  /// posterior, also of poses that are not returned.
   double weight = 0.0;
   double cost = 0.0;  ///< mean robust cost per beam [m]
   /// By how many standard errors it explains the scan worse than the first does, sectors of beams

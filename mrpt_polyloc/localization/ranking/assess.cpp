@@ -2,20 +2,9 @@
 #include <mrpt_polyloc/localization/ranking/match_features.h>
 #include <mrpt_polyloc/localization/scan/BeamSectors.h>
 
+#include <utility>
+
 namespace mrpt_polyloc {
-namespace {
-
-/// The first so many, weights summing to 1 again.
-std::vector<Hypothesis> cutShort(std::vector<Hypothesis> hypotheses, std::size_t count) {
-  if (hypotheses.size() <= count) return hypotheses;
-  hypotheses.resize(count);
-  double sum = 0.0;
-  for (const Hypothesis& hypothesis : hypotheses) sum += hypothesis.weight;
-  for (Hypothesis& hypothesis : hypotheses) hypothesis.weight /= sum;
-  return hypotheses;
-}
-
-}  // namespace
 
 Assessment assess(const std::vector<ScoredPose>& poses, const RangeScan& scan, const ScanCost& cost,
                   const HypothesisParams& params, std::size_t max_hypotheses) {
@@ -33,7 +22,9 @@ Assessment assess(const std::vector<ScoredPose>& poses, const RangeScan& scan, c
   result.status = first_is_right >= params.calibration.unique_probability
                       ? LocalizationStatus::unique
                       : LocalizationStatus::ambiguous;
-  result.hypotheses = cutShort(std::move(hypotheses), max_hypotheses);
+  if (hypotheses.size() > max_hypotheses) hypotheses.resize(max_hypotheses);
+  for (const Hypothesis& hypothesis : hypotheses) result.listed += hypothesis.weight;
+  result.hypotheses = std::move(hypotheses);
   return result;
 }
 

@@ -17,7 +17,8 @@ namespace mrpt_polyloc {
 /// reaches unique_probability; else ambiguous.
 /// \param poses sorted by cost, merged; all that may be rivals, whether they are returned or not
 /// \param cost of the scan, as the poses were ranked by
-/// \param max_hypotheses at most so many are returned; their weights sum to 1
+/// \param max_hypotheses at most so many are returned; weights are of all poses, so that those
+/// returned may sum to less than 1
 Assessment assess(const std::vector<ScoredPose>& poses, const RangeScan& scan, const ScanCost& cost,
                   const HypothesisParams& params, std::size_t max_hypotheses);
 

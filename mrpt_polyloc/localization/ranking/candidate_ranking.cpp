@@ -46,7 +46,6 @@ std::vector<ScoredPose> refine(const std::vector<mrpt::math::TPose2D>& candidate
     if (found && found->cost < pose.cost) pose = *found;
   }
   poses = mergeNearPoses(std::move(poses), params.hypotheses);
-  if (poses.size() > kept) poses.resize(kept);
   return poses;
 }
 

@@ -59,11 +59,25 @@ class SeedPoses {
   }
 
   /// The best leaf of each place, of those within the starting margin of the best of all.
-  std::vector<PoseCandidate> best(std::size_t most) const {
-    const double most_cost = limit();
+  std::vector<PoseCandidate> best(std::size_t most) const { return best(most, limit()); }
+
+  /// The same of all leaves, if so few remain that every place can be looked at; else as best().
+  /// A middle may cost much although the right pose is near: beside racks what is seen changes
+  /// within a hand's breadth.
+  std::vector<PoseCandidate> allIfFew(std::size_t most) const {
+    constexpr std::size_t kLeavesPerPlace = 4;  // about; more leaves are more places than `most`
+    if (leaves.size() <= kLeavesPerPlace * most) {
+      std::vector<PoseCandidate> all = best(most + 1, std::numeric_limits<double>::infinity());
+      if (all.size() <= most) return all;
+    }
+    return best(most);
+  }
+
+ private:
+  std::vector<PoseCandidate> best(std::size_t most, double most_cost) const {
     std::unordered_map<std::int64_t, std::size_t> places;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      if (costs_[i] > most_cost) continue;
+      if (static_cast<double>(costs_[i]) > most_cost) continue;
       const std::int64_t place = placeOf(pose(i), headings_[i]);
       const auto [found, is_new] = places.try_emplace(place, i);
       if (!is_new && costs_[i] < costs_[found->second]) found->second = i;
@@ -77,7 +91,6 @@ class SeedPoses {
     return candidates;
   }
 
- private:
   double limit() const {
     return static_cast<double>(least_) * (1.0 + params_.seed_share) + params_.seed_margin;
   }
@@ -173,7 +186,7 @@ CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
     limit = std::min(target, grown(limit));
   }
 
-  result.candidates = seeds.best(params.max_candidates);
+  result.candidates = seeds.allIfFew(params.max_candidates);
   result.evaluated = descent.evaluated();
   if (!certified) return result;  // not even the first limit was reached: nothing is proven
   result.certified_cost = query.meters(*certified);

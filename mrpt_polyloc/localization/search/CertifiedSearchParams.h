@@ -12,8 +12,10 @@ struct CertifiedSearchParams {
   /// Of the poses kept, those whose cost in the middle of their leaf is within this share of the
   /// best such cost, plus `seed_margin`, are starting points for refinement.
   double seed_share = 0.3;
-  double seed_margin = 0.08;         ///< [m]
-  std::size_t max_candidates = 200;  ///< the best so many of them
+  double seed_margin = 0.08;  ///< [m]
+  /// The best so many of them; where the leaves that remain lie in no more places than this, all
+  /// places are looked at, whatever their middles cost.
+  std::size_t max_candidates = 200;
   /// Nodes evaluated at most before the search stops and says up to which cost it is certified; 0:
   /// no limit.
   std::size_t max_nodes = 0;

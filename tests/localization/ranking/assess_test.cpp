@@ -58,7 +58,8 @@ TEST_F(Assess, ItStaysAmbiguousIfOnlyOneIsAskedFor) {
   const auto result = assessed({at(truth_), at(twin_)}, trusting(), 1);
   EXPECT_EQ(result.status, LocalizationStatus::ambiguous);
   ASSERT_EQ(result.hypotheses.size(), 1U);
-  EXPECT_EQ(result.hypotheses[0].weight, 1.0);
+  EXPECT_NEAR(result.hypotheses[0].weight, 0.5, 0.1);  // of both
+  EXPECT_EQ(result.listed, result.hypotheses[0].weight);
 }
 
 TEST_F(Assess, ANicheOfAFewBeamsIsNotSure) {
