@@ -33,12 +33,12 @@ void run(const char* map_file, const char* rawlog_file) {
   if (!rawlog.loadFromRawLogFile(rawlog_file)) throw std::runtime_error("no rawlog");
   mrpt::bayes::CParticleFilter filter = makeFilter();
   // begin: seed
-  const mrpt_polyloc::PolygonMap map = mrpt_polyloc::loadMap(map_file).map;
-  const mrpt_polyloc::GlobalLocalizer localizer(map);
-  const mrpt_polyloc::ParticleSeeder seeder(map);  // 300 particles, 5 % of them anywhere
+  const auto index = mrpt_polyloc::MapIndex::build(mrpt_polyloc::loadMap(map_file).map);
+  const mrpt_polyloc::GlobalLocalizer localizer(index);
+  const mrpt_polyloc::ParticleSeeder seeder(index);  // 300 particles, 5 % of them anywhere
 
   mrpt::slam::CMonteCarloLocalization2D particles;
-  particles.options.metricMap = std::make_shared<mrpt_polyloc::CPolygonMap2D>(map);  // or your own
+  particles.options.metricMap = std::make_shared<mrpt_polyloc::CPolygonMap2D>(index);  // or yours
   const auto first = rawlog.getAsObservations(1);
   const auto scan = first->getObservationByClass<CObservation2DRangeScan>();
   seeder.seed(localizer.localize(mrpt_polyloc::toRangeScan(*scan)), /*seed=*/1, particles);
