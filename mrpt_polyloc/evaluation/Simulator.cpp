@@ -1,6 +1,7 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/Simulator.h>
+#include <mrpt_polyloc/evaluation/WallSegments.h>
 #include <mrpt_polyloc/geometry/FreeSpaceSampler.h>
 
 #include <mrpt/core/Clock.h>
@@ -113,6 +114,7 @@ void SimulatorParams::check() const {
   require(is_share(short_beams), "short_beams must be in [0, 1]");
   require(std::isfinite(clearance) && clearance >= 0.0,
           "clearance must be finite and not negative");
+  world.check();
 }
 
 std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorParams& params,
@@ -120,6 +122,7 @@ std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorP
   params.check();
   constexpr double kFirstStamp = 1e9;
   const WallSegments walls(map);
+  const ChangedWorld world(map, params.world, seed);
   const FreeSpaceSampler sampler(map);
   const std::vector<double> bearings = bearingsOf(params);
   Random poses(seed);
@@ -129,8 +132,11 @@ std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorP
   for (std::size_t row = 0; row < count; ++row) {
     const TPoint2D place = drawPlace(sampler, walls, params.clearance, poses);
     const double heading = poses.uniform(-kPi, kPi);
+    const mrpt::math::TPose2D eye = world.worldPose({place.x, place.y, heading});
     std::vector<double> ranges;
-    for (const double bearing : bearings) ranges.push_back(walls.range(place, heading + bearing));
+    for (const double bearing : bearings) {
+      ranges.push_back(world.range({eye.x, eye.y}, eye.phi + bearing, params.clearance));
+    }
     occlude(ranges, params, noise);
 
     const double stamp = kFirstStamp + static_cast<double>(row);

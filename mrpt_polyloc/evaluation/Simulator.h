@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mrpt_polyloc/evaluation/WallSegments.h>
+#include <mrpt_polyloc/evaluation/ChangedWorld.h>
 #include <mrpt_polyloc/evaluation/truth.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
@@ -26,6 +26,9 @@ struct SimulatorParams {
   /// the field of view, at 20 to 90 % of the range of the sector's middle.
   std::size_t occluders = 0;
   double clearance = 0.3;  ///< least distance of the robot's centre to a wall [m]: a small robot's
+  /// In what the world that is seen differs from the map, in which truths are told. Drawn from the
+  /// seed as well, without altering poses.
+  WorldChanges world;
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;
@@ -40,7 +43,7 @@ struct SimulatedScan {
 /// `count` scans at random poses: uniform over the free space (by area) that keeps the clearance,
 /// headings uniform. The sensor sits at the robot's origin; stamps are synthetic, 1e9 s + row.
 ///
-/// Ranges by brute force over all walls (see WallSegments). The same seed, map and parameters give
+/// Ranges by brute force over all walls (see ChangedWorld). The same seed, map and parameters give
 /// the same scans, whatever the standard library; poses depend on seed, map and clearance only, so
 /// that noise can be compared at equal poses.
 /// \throws InvalidParamsError; InvalidMapError if no place that keeps the clearance was found.

@@ -11,7 +11,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Range along the unit vector `ray` to the segment from a to b, both relative to the origin.
-double rangeTo(const TPoint2D& a, const TPoint2D& b, const TPoint2D& ray) {
+double rangeFromOrigin(const TPoint2D& a, const TPoint2D& b, const TPoint2D& ray) {
   const double side_a = cross(ray, a), side_b = cross(ray, b);
   if ((side_a > 0.0 && side_b > 0.0) || (side_a < 0.0 && side_b < 0.0)) return kInfinity;
   double range = kInfinity;
@@ -31,6 +31,10 @@ double rangeTo(const TPoint2D& a, const TPoint2D& b, const TPoint2D& ray) {
 
 }  // namespace
 
+double rangeTo(const WallSegment& wall, const TPoint2D& origin, const TPoint2D& ray) {
+  return rangeFromOrigin(wall.a - origin, wall.b - origin, ray);
+}
+
 WallSegments::WallSegments(const PolygonMap& map) {
   for (const Ring* ring : map.rings()) {
     for (std::size_t i = 0; i < ring->size(); ++i) {
@@ -46,19 +50,16 @@ WallSegments::WallSegments(const PolygonMap& map) {
 double WallSegments::range(const TPoint2D& origin, double direction) const {
   const TPoint2D ray{std::cos(direction), std::sin(direction)};
   double nearest = kInfinity;
-  for (const Segment& segment : segments_) {
-    nearest = std::min(nearest, rangeTo(segment.a - origin, segment.b - origin, ray));
+  for (const WallSegment& segment : segments_) {
+    nearest = std::min(nearest, rangeTo(segment, origin, ray));
   }
   return nearest;
 }
 
 double WallSegments::distance(const TPoint2D& point) const {
   double nearest = kInfinity;
-  for (const Segment& segment : segments_) {
-    const TPoint2D edge = segment.b - segment.a, offset = point - segment.a;
-    const double length2 = dot(edge, edge);
-    const double t = length2 > 0.0 ? std::clamp(dot(edge, offset) / length2, 0.0, 1.0) : 0.0;
-    nearest = std::min(nearest, std::hypot(offset.x - t * edge.x, offset.y - t * edge.y));
+  for (const WallSegment& segment : segments_) {
+    nearest = std::min(nearest, distanceToSegment(point, segment.a, segment.b));
   }
   return nearest;
 }

@@ -6,6 +6,15 @@
 
 namespace mrpt_polyloc {
 
+/// A straight wall [m].
+struct WallSegment {
+  TPoint2D a, b;
+};
+
+/// Range [m] from a point along a unit vector to a wall, its end points included; infinity if it is
+/// not met.
+double rangeTo(const WallSegment& wall, const TPoint2D& origin, const TPoint2D& ray);
+
 /// All walls of a map as a bare list of segments, searched one by one in double.
 ///
 /// Slow and simple on purpose: simulated scans and tests need ranges that share nothing with the
@@ -22,10 +31,7 @@ class WallSegments {
   double distance(const TPoint2D& point) const;
 
  private:
-  struct Segment {
-    TPoint2D a, b;
-  };
-  std::vector<Segment> segments_;
+  std::vector<WallSegment> segments_;
 };
 
 }  // namespace mrpt_polyloc

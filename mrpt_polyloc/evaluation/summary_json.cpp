@@ -68,14 +68,19 @@ ordered_json mapStatistics(const PolygonMap& map) {
   return json;
 }
 
-std::string summaryJson(const Summary& all, const Summary* good, const IndexFigures& index,
-                        const PolygonMap& map) {
+ordered_json summaryObject(const Summary& all, const Summary* good, const IndexFigures& index,
+                           const ordered_json& map_statistics) {
   ordered_json json = summaryFigures(all);
   json["index_build_s"] = index.build_s;
   json["index_mb"] = index.mb;
-  json["map"] = mapStatistics(map);
+  json["map"] = map_statistics;
   if (good != nullptr) json["good"] = summaryFigures(*good);
-  return json.dump(2) + "\n";
+  return json;
+}
+
+std::string summaryJson(const Summary& all, const Summary* good, const IndexFigures& index,
+                        const PolygonMap& map) {
+  return summaryObject(all, good, index, mapStatistics(map)).dump(2) + "\n";
 }
 
 std::string scansCsv(const std::vector<ScanRecord>& records) {

@@ -23,6 +23,11 @@ struct IndexFigures {
   double mb = 0.0;       ///< memory [10^6 bytes]
 };
 
+/// What summary.json says of one set, with the map's figures as mapStatistics() gives them.
+nlohmann::ordered_json summaryObject(const Summary& all, const Summary* good,
+                                     const IndexFigures& index,
+                                     const nlohmann::ordered_json& map_statistics);
+
 /// The text of summary.json, indented, with a final newline.
 ///
 /// Figures that do not exist are null: all fractions and times if there are no scans,

@@ -40,6 +40,25 @@ TEST_F(PolylocSimulate, TheSameSeedGivesTheSameFiles) {
   EXPECT_NE(readFile(path("a/scans.rawlog")), readFile(path("c/scans.rawlog")));
 }
 
+TEST_F(PolylocSimulate, AChangedWorldKeepsThePoses) {
+  simulate("map");
+  for (const std::vector<std::string>& change : {std::vector<std::string>{"--boxes", "5"},
+                                                 {"--gone", "1"},
+                                                 {"--wall-shift", "0.05"},
+                                                 {"--wing-scale", "0.02"},
+                                                 {"--wing-turn", "1"},
+                                                 {"--glass", "0.3"}}) {
+    simulate("changed", change);
+    EXPECT_EQ(readFile(path("map/truth.tum")), readFile(path("changed/truth.tum"))) << change[0];
+    EXPECT_NE(readFile(path("map/scans.rawlog")), readFile(path("changed/scans.rawlog")))
+        << change[0];
+  }
+  const Outcome outcome = run("polyloc-simulate", {"--map", roomFile(), "-n", "1", "--seed", "1",
+                                                   "--glass", "1.1", "-o", path("out")});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--glass"));
+}
+
 TEST_F(PolylocSimulate, FailsWholeOrNotAtAll) {
   const std::string room = roomFile();
   std::vector<std::string> arguments = {"--map", room, "-n", "2", "--seed", "1", "-o", ""};
