@@ -14,7 +14,8 @@ foreach(folder IN ITEMS base geometry visibility polar localization io mrpt_brid
     DIRECTORY "${PROJECT_SOURCE_DIR}/mrpt_polyloc/${folder}"
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/mrpt_polyloc"
     FILES_MATCHING
-    PATTERN "*.h")
+    PATTERN "*.h"
+    PATTERN "baselines" EXCLUDE) # no part of the library
 endforeach()
 install(FILES "${PROJECT_BINARY_DIR}/generated/mrpt_polyloc/version.h"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/mrpt_polyloc")

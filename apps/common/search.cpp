@@ -225,12 +225,15 @@ std::vector<RangeScan> loadSearchedScans(const Program& program, const SearchOpt
 std::vector<LocalizedScan> localizeScans(const ScanLocalizer& localizer,
                                          const std::vector<RangeScan>& scans,
                                          const std::vector<std::size_t>& rows,
-                                         const PosePrior& prior, const SearchOptions& search) {
+                                         const PosePrior& prior, const SearchOptions& search,
+                                         const std::function<void(const LocalizedScan&)>& on_done) {
   std::vector<LocalizedScan> localized(rows.size());
-  Progress progress("scan", rows.size());
+  std::optional<Progress> progress;
+  if (!on_done) progress.emplace("scan", rows.size());
   const auto step = [&](std::size_t i) {
     localized[i] = localizeOne(localizer, scans[rows[i]], rows[i], prior);
-    progress.step();
+    if (on_done) on_done(localized[i]);
+    if (progress) progress->step();
   };
   if (search.threads > 1) {
     tbb::task_arena arena(static_cast<int>(search.threads));

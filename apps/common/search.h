@@ -72,10 +72,11 @@ struct LocalizedScan {
 };
 
 /// Localizes the given rows, in that order, `search.threads` at a time. Results do not depend on
-/// the number of threads.
-std::vector<LocalizedScan> localizeScans(const ScanLocalizer& localizer,
-                                         const std::vector<RangeScan>& scans,
-                                         const std::vector<std::size_t>& rows,
-                                         const PosePrior& prior, const SearchOptions& search);
+/// the number of threads. \param on_done is told each scan as soon as it is done, by several
+/// threads at once, and shows progress itself; none: progress is shown here
+std::vector<LocalizedScan> localizeScans(
+    const ScanLocalizer& localizer, const std::vector<RangeScan>& scans,
+    const std::vector<std::size_t>& rows, const PosePrior& prior, const SearchOptions& search,
+    const std::function<void(const LocalizedScan&)>& on_done = {});
 
 }  // namespace mrpt_polyloc::apps

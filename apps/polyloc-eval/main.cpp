@@ -5,12 +5,14 @@
 #include "../common/map_input.h"
 #include "../common/parsing.h"
 #include "../common/search.h"
+#include "EvaluationOptions.h"
+#include "list_run.h"
 #include "text_summary.h"
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/evaluation/Summary.h>
 #include <mrpt_polyloc/evaluation/summary_json.h>
-#include <mrpt_polyloc/evaluation/truth.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <numeric>
@@ -23,62 +25,12 @@ namespace {
 using namespace mrpt_polyloc;
 using namespace mrpt_polyloc::apps;
 
-struct Options {
-  SearchOptions search;
-  std::string truth, good, folder;
-  Tolerance tolerance;
-};
+constexpr const char* kOtherForms =
+    "Many sets and methods:  polyloc-eval LIST.yaml [--shard I/N] [--threads N] [--resume] -o DIR\n"
+    "Shares put together:    polyloc-eval merge DIR... -o DIR";
 
-void addOptions(CLI::App& cli, Options& options) {
-  options.search.max_hypotheses = 50;
-  addSearchOptions(cli, options.search);
-  addText(cli, "--truth", options.truth, "True poses of the robot, one a scan, matched by stamp")
-      ->required()
-      ->type_name("TRUTH.tum");
-  addText(cli, "--good", options.good, "Rows to be summed up apart, one a line")->type_name("FILE");
-  cli.add_option_function<std::string>(
-         "--tolerance",
-         [&options](const std::string& text) { options.tolerance = parseTolerance(text); },
-         "What still counts as right, m and deg [default: 0.3,5]")
-      ->type_name("M,DEG");
-  addText(cli, "-o", options.folder, "Folder for summary.json and scans.csv")
-      ->required()
-      ->type_name("DIR");
-}
-
-/// What is read before anything is searched.
-struct Inputs {
-  std::vector<RangeScan> scans;
-  std::vector<mrpt::math::TPose2D> truth;
-  std::optional<std::vector<std::size_t>> good;
-};
-
-Inputs loadInputs(const Program& program, const Options& options) {
-  Inputs inputs;
-  inputs.scans = loadSearchedScans(program, options.search);
-  inputs.truth = matchTruth(inputs.scans, loadTum(options.truth), options.truth);
-  if (!options.good.empty()) inputs.good = loadRows(options.good, inputs.scans.size());
-  return inputs;
-}
-
-/// Localized scans against their truth.
-std::vector<ScanRecord> score(const std::vector<LocalizedScan>& localized, const Inputs& inputs,
-                              const Tolerance& tolerance) {
-  std::vector<ScanRecord> records;
-  for (const LocalizedScan& scan : localized) {
-    const std::vector<Hypothesis>& hypotheses = scan.result.hypotheses;
-    const mrpt::math::TPose2D& truth = inputs.truth[scan.row];
-    ScanRecord record{scan.row, scan.stamp,       truth, scoreScan(scan.result, truth, tolerance),
-                      {},       hypotheses.size()};
-    record.score.ms = scan.ms;
-    if (!hypotheses.empty()) record.answer = hypotheses.front();
-    records.push_back(record);
-  }
-  return records;
-}
-
-int evaluate(const Program& program, const Options& options) {
-  const Inputs inputs = loadInputs(program, options);
+int evaluate(const Program& program, const EvaluationOptions& options, const std::string& to) {
+  const EvaluationInputs inputs = loadInputs(program, options);
 
   const Stopwatch watch;
   const ScanLocalizer localizer =
@@ -86,14 +38,17 @@ int evaluate(const Program& program, const Options& options) {
                     options.search, inputs.scans.size());
   const double build_s = watch.seconds();
 
-  const std::filesystem::path folder = options.folder;
-  makeFolder(options.folder);
+  const std::filesystem::path folder = to;
+  makeFolder(to);
   requireWritable(folder / "summary.json");
 
   std::vector<std::size_t> rows(inputs.scans.size());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
-  const std::vector<ScanRecord> records = score(
-      localizeScans(localizer, inputs.scans, rows, {}, options.search), inputs, options.tolerance);
+  std::vector<ScanRecord> records;
+  for (const LocalizedScan& scan :
+       localizeScans(localizer, inputs.scans, rows, {}, options.search)) {
+    records.push_back(scoreLocalized(scan, inputs.truth[scan.row], options.tolerance));
+  }
 
   std::vector<ScanScore> scores;
   for (const ScanRecord& record : records) scores.push_back(record.score);
@@ -111,11 +66,79 @@ int evaluate(const Program& program, const Options& options) {
   return kDone;
 }
 
+int mainOfSet(int argc, char** argv) {
+  Program program("polyloc-eval", "Localizes scans whose true poses are known and sums up.");
+  EvaluationOptions options;
+  std::string folder;
+  addEvaluationOptions(program.options(), options);
+  addText(program.options(), "-o", folder, "Folder for summary.json and scans.csv")
+      ->required()
+      ->type_name("DIR");
+  program.options().footer(kOtherForms);
+  return program.run(argc, argv, [&] { return evaluate(program, options, folder); });
+}
+
+/// `I/N`, both from 1 on.
+void parseShard(const std::string& text, ListRunOptions& options) {
+  const std::size_t slash = text.find('/');
+  const auto shard = parseCount(text.substr(0, slash));
+  const auto shards =
+      slash == std::string::npos ? std::nullopt : parseCount(text.substr(slash + 1));
+  if (!shard || !shards || *shard == 0 || *shard > *shards) {
+    throw UsageError("--shard: '" + text + "' is not I/N with I from 1 to N");
+  }
+  options.shard = *shard;
+  options.shards = *shards;
+}
+
+int mainOfList(int argc, char** argv, const std::string& command) {
+  Program program("polyloc-eval", "Runs the methods of a list on its data sets and reports.");
+  ListRunOptions options;
+  options.command = command;
+  CLI::App& cli = program.options();
+  addText(cli, "LIST", options.list, "Data sets and methods, see README.md")->required();
+  addText(cli, "-o", options.folder, "Folder for summary.json, scans.csv, report.html, estimates/")
+      ->required()
+      ->type_name("DIR");
+  cli.add_option_function<std::string>(
+         "--shard", [&options](const std::string& text) { parseShard(text, options); },
+         "Run the I-th of N shares alone")
+      ->type_name("I/N");
+  addCount(cli, "--threads", options.threads, 1, 1024,
+           "Scans at once [default: one, so that times mean something]")
+      ->type_name("N");
+  cli.add_flag("--resume", options.resume, "Go on with the run that the folder holds");
+  return program.run(argc, argv, [&] { return runList(program, options); });
+}
+
+int mainOfMerge(int argc, char** argv, const std::string& command) {
+  Program program("polyloc-eval merge", "Puts the shares of a list together.");
+  std::vector<std::string> folders;
+  std::string folder;
+  program.options().add_option("DIR", folders, "Folders of all shares")->required();
+  addText(program.options(), "-o", folder, "A new folder for the whole")
+      ->required()
+      ->type_name("DIR");
+  return program.run(argc, argv, [&] { return mergeRuns(program, folders, folder, command); });
+}
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("polyloc-eval", "Localizes scans whose true poses are known and sums up.");
-  Options options;
-  addOptions(program.options(), options);
-  return program.run(argc, argv, [&] { return evaluate(program, options); });
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  std::string command = "polyloc-eval";
+  bool has_list = false, has_map = false;
+  for (const std::string& argument : arguments) {
+    command += " " + argument;
+    has_map = has_map || argument.rfind("--map", 0) == 0;
+    has_list = has_list || endsWith(argument, ".yaml") || endsWith(argument, ".yml");
+  }
+  if (!arguments.empty() && arguments.front() == "merge") {
+    return mainOfMerge(argc - 1, argv + 1, command);
+  }
+  return has_list && !has_map ? mainOfList(argc, argv, command) : mainOfSet(argc, argv);
 }

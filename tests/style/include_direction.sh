@@ -21,7 +21,8 @@ exec awk '
 BEGIN {
   count = split("base geometry visibility polar polar/exact localization/scan localization/exact " \
                 "localization/nearest_cells localization/search localization/ranking " \
-                "localization travel io mrpt_bridge evaluation", order)
+                "localization travel io mrpt_bridge evaluation " \
+                "evaluation/baselines", order)
   for (i = 1; i <= count; ++i) rank[order[i]] = i
   core = rank["travel"]
 }

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "../common/Cli.h"
+#include "../common/search.h"
+#include <mrpt_polyloc/evaluation/Summary.h>
+#include <mrpt_polyloc/evaluation/summary_json.h>
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mrpt_polyloc::apps {
+
+/// All that is to be known of one data set and one method: what the command line of one set says,
+/// and each pair of a list.
+struct EvaluationOptions {
+  SearchOptions search;
+  std::string truth, good;
+  Tolerance tolerance;
+};
+
+/// Adds what addSearchOptions() adds, --truth, --good and --tolerance.
+void addEvaluationOptions(CLI::App& cli, EvaluationOptions& options);
+
+/// What is read before anything is searched.
+struct EvaluationInputs {
+  std::vector<RangeScan> scans;
+  std::vector<mrpt::math::TPose2D> truth;  ///< of each scan
+  std::optional<std::vector<std::size_t>> good;
+};
+
+/// \throws FormatError
+EvaluationInputs loadInputs(const Program& program, const EvaluationOptions& options);
+
+/// A localized scan against its truth.
+ScanRecord scoreLocalized(const LocalizedScan& scan, const mrpt::math::TPose2D& truth,
+                          const Tolerance& tolerance);
+
+}  // namespace mrpt_polyloc::apps

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "../common/Cli.h"
+#include "../common/search.h"
+#include <mrpt_polyloc/geometry/OccupancyBitmap.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace mrpt_polyloc::apps {
+
+/// What a list may say of a baseline; what it does not say is the baseline's default.
+struct BaselineOptions {
+  std::string method;
+  double cell = 0.05;  ///< of the grid that polygon maps are drawn into [m]
+  std::optional<double> step, sigma;
+  std::uint64_t headings = 0, refined = 0, hits = 0;  ///< 0: the default
+};
+
+/// likelihood_lattice or correlative.
+bool isBaseline(const std::string& method);
+
+/// Adds --cell, --step, --sigma, --headings, --refined and --hits.
+void addBaselineOptions(CLI::App& cli, BaselineOptions& options);
+
+/// A baseline as the programs see a method. Its answers have no status: they are `ambiguous`,
+/// their weights and their match are their scores, their costs one minus these.
+/// \throws InvalidMapError, InvalidParamsError
+ScanLocalizer makeBaseline(const PolygonMap& map, const OccupancyBitmap& bitmap,
+                           const BaselineOptions& options);
+
+}  // namespace mrpt_polyloc::apps

@@ -1,0 +1,275 @@
+#include "ProgramTest.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+namespace mrpt_polyloc::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::Not;
+using testing::SizeIs;
+
+/// Lists of a small room: one set of files, one simulated, one of several plans.
+class PolylocEvalList : public ProgramTest {
+ protected:
+  std::string list(const std::string& methods = "certified") const {
+    simulate("sim", {"--short", "0.3"});
+    write("good.txt", "0\n3\n11\n");
+    write("plans.tsv",
+          "box\tPOLYGON ((0 0, 5 0, 5 3, 2 3, 2 4, 0 4, 0 0))\n"
+          "hall 2\tPOLYGON ((0 0, 9 0, 9 3, 7 3, 7 5, 0 5, 0 0))\n");
+    return write("list.yaml",
+                 "datasets:\n"
+                 "  - {name: files, map: room.wkt, scans: sim/scans.rawlog, truth: sim/truth.tum, "
+                 "good: good.txt}\n"
+                 "  - {name: plan, plans: plans.tsv, simulate: {n: 5, seed: 3, short: 0.2}}\n"
+                 "  - {name: every, map: room.wkt, simulate: {n: 9, seed: 1, fov: 180, wing_scale: "
+                 "0.01}, every: 3, max_range: 12}\n"
+                 "methods: [" +
+                     methods + "]\n");
+  }
+  Outcome evaluate(const std::vector<std::string>& arguments) const {
+    return run("polyloc-eval", arguments);
+  }
+  json summary(const std::string& folder) const {
+    return json::parse(readFile(path(folder + "/summary.json")));
+  }
+  /// What must not hang on how it was run: no times, no memory, no date.
+  json timeless(const std::string& folder) const {
+    json result = summary(folder);
+    result.erase("run");
+    for (const char* key : {"results", "all"}) {
+      for (json& entry : result[key]) {
+        const auto forget = [](json& figures) {
+          for (const char* time : {"ms_median", "ms_p90", "ms_max"}) figures.erase(time);
+        };
+        forget(entry);
+        if (entry.contains("good")) forget(entry["good"]);
+        for (const char* time : {"index_build_s", "cold_start_s"}) entry.erase(time);
+      }
+    }
+    return result;
+  }
+  /// The estimates, which evo would read.
+  std::string estimates(const std::string& folder) const {
+    return readFile(path(folder + "/estimates/files@certified.tum"));
+  }
+};
+
+TEST_F(PolylocEvalList, RunsMethodsAndBaselinesOnAllSets) {
+  const Outcome outcome =
+      evaluate({list("certified, {name: few, method: cells, range: 6, max_hypotheses: 3}, "
+                     "{name: field, method: likelihood_lattice, step: 0.5}, correlative"),
+                "-o", path("out")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(files("out"),
+              ElementsAre("estimates", "parts", "report.html", "scans.csv", "summary.json"));
+  const json result = summary("out");
+  ASSERT_THAT(result["results"], SizeIs(16));
+  ASSERT_THAT(result["all"], SizeIs(4));
+  EXPECT_EQ(result["results"][0]["dataset"], "files");
+  EXPECT_EQ(result["results"][0]["good"]["scans"], 3);
+  EXPECT_EQ(result["results"][4]["dataset"], "plan-box");
+  EXPECT_EQ(result["results"][8]["dataset"], "plan-hall-2");
+  EXPECT_EQ(result["results"][12]["scans"], 3);  // every third of nine
+  for (const auto& of_method : result["all"]) {
+    EXPECT_EQ(of_method["scans"], 12 + 2 * 5 + 3);
+    EXPECT_GE(of_method["top1"], 0.75) << of_method["method"];
+    EXPECT_LE(of_method["interval"]["top1"][0], of_method["top1"]);
+    EXPECT_GE(of_method["interval"]["top1"][1], of_method["top1"]);
+  }
+  EXPECT_EQ(result["all"][2]["status"]["unique"], 0);  // baselines do not know
+  // What a set by itself gives is what it gives in a list.
+  const Outcome alone =
+      evaluate({"--map", path("room.wkt"), "--scans", path("sim/scans.rawlog"), "--truth",
+                path("sim/truth.tum"), "--good", path("good.txt"), "-o", path("alone")});
+  ASSERT_EQ(alone.code, 0) << alone.err;
+  const json one = summary("alone"), listed = result["results"][0];
+  for (const char* key : {"scans", "top1", "top5", "top20", "in_list", "unique_right",
+                          "median_error_m", "status", "map", "index_mb"}) {
+    EXPECT_EQ(one[key], listed[key]) << key;
+  }
+  EXPECT_THAT(linesOf(readFile(path("out/scans.csv"))), SizeIs(1 + 4 * 25));
+  EXPECT_THAT(linesOf(estimates("out")), SizeIs(12));
+  EXPECT_THAT(linesOf(readFile(path("out/estimates/files.tum"))), SizeIs(12));
+}
+
+TEST_F(PolylocEvalList, AKilledRunGoesOnAndCountsNothingTwice) {
+  const std::string file = list("certified, correlative");
+  ASSERT_EQ(evaluate({file, "-o", path("whole")}).code, 0);
+  ASSERT_EQ(evaluate({file, "-o", path("out")}).code, 0);
+  // As kills leave it: results not written, some parts cut anywhere, some not begun.
+  for (const double share : {0.0, 0.1, 0.45, 0.8, 0.999}) {
+    for (const char* name : {"summary.json", "scans.csv", "report.html"}) {
+      fs::remove(path(std::string("out/") + name));
+    }
+    std::size_t number = 0;
+    for (const auto& entry : fs::directory_iterator(path("out/parts"))) {
+      if (entry.path().extension() != ".jsonl") continue;
+      const auto size = static_cast<double>(fs::file_size(entry.path()));
+      if (++number % 3 == 0) {
+        fs::remove(entry.path());
+      } else {
+        fs::resize_file(entry.path(), static_cast<std::uintmax_t>(share * size));
+      }
+    }
+    write("out/.tmp-1-0-summary.json", "half");
+    const Outcome outcome = evaluate({file, "-o", path("out"), "--resume", "--threads", "2"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(timeless("out"), timeless("whole")) << share;
+    EXPECT_EQ(estimates("out"), estimates("whole"));
+    EXPECT_FALSE(fs::exists(path("out/.tmp-1-0-summary.json")));
+  }
+}
+
+TEST_F(PolylocEvalList, GoesOnOnlyWithTheSameRun) {
+  const std::string file = list();
+  ASSERT_EQ(evaluate({file, "-o", path("out")}).code, 0);
+  Outcome outcome = evaluate({file, "-o", path("out")});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr(path("out")), HasSubstr("--resume")));
+  outcome = evaluate({list("{name: certified, method: certified, max_hypotheses: 4}"), "-o",
+                      path("out"), "--resume"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("differs in methods"));
+  // The same list, but other scans in its files.
+  simulate("sim", {"--short", "0.1"});
+  write("list.yaml", readFile(file));
+  const std::string again = list();
+  simulate("sim", {"--short", "0.1"});
+  outcome = evaluate({again, "-o", path("out"), "--resume"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("differs in inputs_hash"));
+}
+
+TEST_F(PolylocEvalList, SharesPutTogetherAreTheWhole) {
+  const std::string file = list("certified, correlative");
+  ASSERT_EQ(evaluate({file, "-o", path("whole")}).code, 0);
+  std::vector<std::string> merge = {"merge"};
+  for (const std::string i : {"1", "2", "3"}) {
+    const Outcome outcome = evaluate({file, "--shard", i + "/3", "-o", path("share" + i)});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_FALSE(fs::exists(path("share" + i + "/summary.json")));
+    merge.push_back(path("share" + i));
+  }
+  std::vector<std::string> arguments = merge;
+  arguments.insert(arguments.end(), {"-o", path("merged")});
+  const Outcome outcome = evaluate(arguments);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(timeless("merged"), timeless("whole"));
+  EXPECT_EQ(estimates("merged"), estimates("whole"));
+
+  const auto expectFailure = [&](const std::vector<std::string>& shares, const char* message) {
+    std::vector<std::string> bad_merge = {"merge"};
+    for (const std::string& share : shares) bad_merge.push_back(path(share));
+    bad_merge.insert(bad_merge.end(), {"-o", path("bad")});
+    const Outcome bad = evaluate(bad_merge);
+    EXPECT_EQ(bad.code, 1);
+    EXPECT_THAT(bad.err, HasSubstr(message));
+    EXPECT_FALSE(fs::exists(path("bad/summary.json")));
+    fs::remove_all(path("bad"));
+  };
+  expectFailure({"share1", "share3"}, "a share of the run is not there");
+  expectFailure({"share1", "share2", "share2", "share3"}, "is there a second time");
+  expectFailure({"share1", "sim"}, "no run of polyloc-eval");
+  std::string run = readFile(path("share2/parts/run.json"));
+  const std::string version = POLYLOC_VERSION;
+  run.replace(run.find("\"" + version + "\""), version.size() + 2, "\"0.0.0\"");
+  write("share2/parts/run.json", run);
+  expectFailure({"share1", "share2", "share3"}, "differs in version");
+}
+
+TEST_F(PolylocEvalList, BadListsAreRefusedWithFileAndLine) {
+  list();
+  const auto expectFailure = [&](const std::string& text, const std::string& message) {
+    const std::string file = write("bad.yaml", text);
+    const Outcome outcome = evaluate({file, "-o", path("bad")});
+    EXPECT_EQ(outcome.code, 1) << text;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("bad.yaml: "), HasSubstr(message))) << text;
+    EXPECT_FALSE(fs::exists(path("bad"))) << text;
+  };
+  const std::string good_set =
+      "datasets:\n  - {name: a, map: room.wkt, simulate: {n: 2, seed: 1}}\n";
+  const std::string method = "methods: [certified]\n";
+  expectFailure("datasets: [\n", "not a YAML text");
+  expectFailure("- a\n", "line 1: keys are expected");
+  expectFailure(method, "'datasets' must be a list");
+  expectFailure(good_set, "'methods' must be a list");
+  expectFailure(good_set + method + "more: 1\n", "line 4: unknown key 'more'");
+  expectFailure(good_set + method + "methods: [cells]\n", "'methods' a second time");
+  expectFailure(good_set + "methods: [certified, certified]\n", "the method 'certified' a second");
+  expectFailure(good_set + "methods: [quick]\n", "unknown method 'quick'");
+  expectFailure(good_set + "methods:\n  - {name: x, method: cells, speed: 3}\n",
+                "line 4: unknown key 'speed'");
+  expectFailure(good_set + "methods:\n  - {name: x, method: certified, range: 3}\n",
+                "--range is that of visibility cells");
+  expectFailure(good_set + "methods:\n  - {name: x, method: correlative, sigma: -1}\n", "--sigma");
+  expectFailure("datasets:\n  - {name: ../a, map: room.wkt, simulate: {n: 2, seed: 1}}\n" + method,
+                "line 2: the name '../a'");
+  expectFailure("datasets:\n  - {name: a, map: gone.wkt, simulate: {n: 2, seed: 1}}\n" + method,
+                "line 2: map: no such file");
+  expectFailure(
+      "datasets:\n  - {name: a, map: \"${NO_SUCH_THING}/m.wkt\", simulate: {n: 2, seed: 1}}\n" +
+          method,
+      "no variable NO_SUCH_THING");
+  expectFailure(
+      "datasets:\n  - {name: a, map: room.wkt, simulate: {n: 2, seed: 1, size: 3}}\n" + method,
+      "unknown key 'size'");
+  expectFailure("datasets:\n  - {name: a, map: room.wkt, simulate: {n: 2}}\n" + method, "--seed");
+  expectFailure("datasets:\n  - {name: a, map: room.wkt, scans: sim/scans.rawlog}\n" + method,
+                "'truth' is missing");
+  expectFailure(
+      "datasets:\n  - {name: a, map: room.wkt, map: room.wkt, simulate: {n: 2, seed: 1}}\n" +
+          method,
+      "'map' a second time");
+  expectFailure("datasets:\n  - {name: a, plans: plans.tsv, scans: sim/scans.rawlog}\n" + method,
+                "'plans' needs 'simulate'");
+}
+
+TEST_F(PolylocEvalList, WrongUsageIsTold) {
+  const std::string file = list();
+  for (const char* shard : {"0/3", "4/3", "1", "a/b", "1/0"}) {
+    const Outcome outcome = evaluate({file, "--shard", shard, "-o", path("out")});
+    EXPECT_EQ(outcome.code, 2) << shard;
+    EXPECT_THAT(outcome.err, HasSubstr("--shard"));
+  }
+  EXPECT_EQ(evaluate({file}).code, 2);
+  EXPECT_EQ(evaluate({"merge", "-o", path("out")}).code, 2);
+  EXPECT_FALSE(fs::exists(path("out")));
+}
+
+TEST_F(PolylocEvalList, TheReportIsOnePageThatNeedsNothingElse) {
+  ASSERT_EQ(evaluate({list(), "-o", path("out")}).code, 0);
+  const std::string page = readFile(path("out/report.html"));
+  EXPECT_THAT(page, AllOf(HasSubstr("<!doctype html>"), HasSubstr("plan-hall-2"),
+                          Not(HasSubstr("%DATA%"))));
+  for (const char* other : {"src=\"", "src='", "<link rel=\"stylesheet", "@import", "url(http",
+                            "fetch(", "XMLHttpRequest"}) {
+    EXPECT_THAT(page, Not(HasSubstr(other))) << other;
+  }
+}
+
+TEST_F(PolylocEvalList, AFullDiskIsTold) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const std::string file = list();
+  fs::create_directories(path("out/parts"));
+  fs::create_symlink("/dev/full", path("out/parts/files@certified.jsonl"));
+  const Outcome outcome = evaluate({file, "-o", path("out")});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("files@certified.jsonl"), HasSubstr("cannot be written")));
+  EXPECT_FALSE(fs::exists(path("out/summary.json")));
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc::test
