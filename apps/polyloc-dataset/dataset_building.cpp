@@ -86,8 +86,10 @@ CObservation2DRangeScan observationOf(const RangeScan& scan, double stamp, const
 OccupancyBitmap mapOf(const PosedScans& drive, const std::vector<std::size_t>& rows,
                       double resolution, const std::string& file) {
   COccupancyGridMap2D grid(-1.0F, 1.0F, -1.0F, 1.0F, static_cast<float>(resolution));
-  grid.insertionOptions.maxDistanceInsertion = 15.0F;
-  grid.insertionOptions.maxOccupancyUpdateCertainty = 0.55F;
+  // Free after four beams that pass a cell and none that ends there: drives see most places a few
+  // times only. Far walls count: searches look at them, too.
+  grid.insertionOptions.maxDistanceInsertion = 80.0F;
+  grid.insertionOptions.maxOccupancyUpdateCertainty = 0.6F;
   grid.insertionOptions.considerInvalidRangesAsFreeSpace = false;
   for (const std::size_t row : rows) {
     const CObservation2DRangeScan observation = observationOf(drive.scans[row], 0.0, file, row);

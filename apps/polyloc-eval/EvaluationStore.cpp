@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -142,6 +143,11 @@ JobFile::~JobFile() {
 }
 
 std::optional<EvaluationJob> JobFile::read() const {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path_, ignored)) return std::nullopt;
+  if (!std::filesystem::is_regular_file(path_, ignored)) {
+    throw FormatError(path_, "", "is no regular file");
+  }
   const std::string text = readWhole(path_);
   EvaluationJob job;
   bool has_header = false;
