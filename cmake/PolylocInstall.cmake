@@ -9,7 +9,7 @@ install(
   EXPORT mrpt_polylocTargets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-foreach(folder IN ITEMS base geometry visibility polar localization io mrpt_bridge evaluation)
+foreach(folder IN ITEMS base geometry visibility polar localization travel io mrpt_bridge evaluation)
   install(
     DIRECTORY "${PROJECT_SOURCE_DIR}/mrpt_polyloc/${folder}"
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/mrpt_polyloc"

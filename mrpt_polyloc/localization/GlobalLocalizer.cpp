@@ -46,6 +46,8 @@ void GlobalLocalizerParams::check() const {
   certified.check();
   refinement.check();
   hypotheses.check();
+  correlation.check();
+  requireInRange("most_searched_scans", static_cast<double>(most_searched_scans), 1.0, 1e3);
 }
 
 void SearchOptions::check() const {

@@ -6,6 +6,7 @@
 #include <mrpt_polyloc/localization/SearchOptions.h>
 #include <mrpt_polyloc/localization/scan/PosePrior.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
+#include <mrpt_polyloc/localization/scan/ScanSet.h>
 
 #include <vector>
 
@@ -29,14 +30,24 @@ class GlobalLocalizer {
   LocalizationResult localize(const RangeScan& scan, const PosePrior& prior = {},
                               const SearchOptions& options = {}) const;
 
-  /// The same for many scans, on the threads of the caller's TBB arena; a time budget is each
-  /// scan's own. In the order of the scans, the same at any number of threads.
+  /// Every pose now that explains all scans of a set. The scans are searched one by one, what they
+  /// leave is carried to now by the movements, refined on all beams of all scans with the movements
+  /// free within their uncertainty, ranked and judged on all (see SetRefiner, SetEvidence). For a
+  /// set of one scan it is the answer for that scan. The certificate and regions are those of the
+  /// first scan that was searched, mostly the first of now: see Certificate::moment. The prior is
+  /// of the robot now. The budget is for all searches together.
+  LocalizationResult localize(const ScanSet& set, const PosePrior& prior = {},
+                              const SearchOptions& options = {}) const;
+
+  /// The same for many scans, each for itself, on the threads of the caller's TBB arena; a time
+  /// budget is each scan's own. In the order of the scans, the same at any number of threads.
   std::vector<LocalizationResult> localize(const std::vector<RangeScan>& scans,
                                            const PosePrior& prior = {},
                                            const SearchOptions& options = {}) const;
 
   const MapIndex& index() const { return *index_; }
   const PolygonMap& map() const { return index_->map(); }
+  const GlobalLocalizerParams& params() const { return params_; }
 
  private:
   MapIndex::Ptr index_;

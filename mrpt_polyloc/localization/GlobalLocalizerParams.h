@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/localization/ranking/HypothesisParams.h>
+#include <mrpt_polyloc/localization/ranking/MomentWeights.h>
 #include <mrpt_polyloc/localization/scan/PoseRefinerParams.h>
 #include <mrpt_polyloc/localization/scan/RobustCostParams.h>
 #include <mrpt_polyloc/localization/search/CertifiedSearchParams.h>
@@ -21,6 +22,11 @@ struct GlobalLocalizerParams {
   CertifiedSearchParams certified;
   PoseRefinerParams refinement;
   HypothesisParams hypotheses;
+  /// Of scan sets: how much scans from nearly the same place count.
+  ScanCorrelation correlation;
+  /// ... and so many of its scans are searched at most, now first, then the farthest from those
+  /// searched; fewer if the answer is unique before.
+  std::size_t most_searched_scans = 4;
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;

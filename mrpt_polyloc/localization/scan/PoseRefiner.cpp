@@ -29,14 +29,14 @@ BeamPattern patternOf(const std::vector<Beam>& beams) {
   return BeamPattern(bearings);
 }
 
+}  // namespace
+
 /// The normal equations of one step, in the beam frame.
-struct NormalEquations {
+struct PoseRefiner::NormalEquations {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   std::size_t beams = 0;
 };
-
-}  // namespace
 
 void PoseRefinerParams::check() const {
   requireInRange("max_iterations", max_iterations, 0.0, 1000.0);
@@ -67,39 +67,54 @@ RefinedPose PoseRefiner::at(const mrpt::math::TPose2D& pose_map_beams) const {
   return refine(pose_map_beams, 0);
 }
 
+RefinementStep PoseRefiner::step(const mrpt::math::TPose2D& pose_map_beams) const {
+  PredictedHits predicted;
+  const NormalEquations equations = linearize(pose_map_beams, predicted);
+  RefinementStep step;
+  step.beams = equations.beams;
+  for (int row = 0; row < 3; ++row) {
+    step.right[static_cast<std::size_t>(row)] = equations.right[row];
+    for (int column = 0; column < 3; ++column) {
+      step.matrix(row, column) = equations.matrix(row, column);
+    }
+  }
+  return step;
+}
+
+PoseRefiner::NormalEquations PoseRefiner::linearize(const mrpt::math::TPose2D& pose,
+                                                    PredictedHits& predicted) const {
+  const double inverse_scale = 1.0 / params_.residual_scale;
+  predictor_->predict(pose, pattern_, predicted);
+  NormalEquations equations;
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    const double along = static_cast<double>(predicted.along[i]);
+    const double across = static_cast<double>(predicted.across[i]);
+    const double inverse_distance = std::sqrt(along * along + across * across);
+    // No wall there, or the pose stands on it.
+    if (!(inverse_distance > 0.0 && std::isfinite(inverse_distance))) continue;
+    // The hit's distance beyond the line n.x = h, n the unit normal away from the robot.
+    const double distance = 1.0 / inverse_distance;
+    const double nx = along * distance, ny = across * distance;
+    const double range = static_cast<double>(ranges_[i]);
+    const double qx = range * cosines_[i], qy = range * sines_[i];
+    const double residual = nx * qx + ny * qy - distance;
+    if (std::abs(residual) > params_.gate) continue;
+    // Moving the frame by (dx, dy, dphi) moves the hit by (dx - dphi qy, dy + dphi qx).
+    const Eigen::Vector3d gradient(nx, ny, ny * qx - nx * qy);
+    const double scaled = residual * inverse_scale;
+    const double weight = 1.0 / (1.0 + scaled * scaled);
+    const Eigen::Vector3d weighted = weight * gradient;
+    equations.matrix.noalias() += weighted * gradient.transpose();
+    equations.right -= residual * weighted;
+    ++equations.beams;
+  }
+  return equations;
+}
+
 RefinedPose PoseRefiner::refine(const mrpt::math::TPose2D& start, int max_iterations) const {
   mrpt::math::TPose2D pose = start;
   PredictedHits predicted;
-  const double inverse_scale = 1.0 / params_.residual_scale;
-  const auto linearize = [&] {
-    predictor_->predict(pose, pattern_, predicted);
-    NormalEquations equations;
-    for (std::size_t i = 0; i < ranges_.size(); ++i) {
-      const double along = static_cast<double>(predicted.along[i]);
-      const double across = static_cast<double>(predicted.across[i]);
-      const double inverse_distance = std::sqrt(along * along + across * across);
-      // No wall there, or the pose stands on it.
-      if (!(inverse_distance > 0.0 && std::isfinite(inverse_distance))) continue;
-      // The hit's distance beyond the line n.x = h, n the unit normal away from the robot.
-      const double distance = 1.0 / inverse_distance;
-      const double nx = along * distance, ny = across * distance;
-      const double range = static_cast<double>(ranges_[i]);
-      const double qx = range * cosines_[i], qy = range * sines_[i];
-      const double residual = nx * qx + ny * qy - distance;
-      if (std::abs(residual) > params_.gate) continue;
-      // Moving the frame by (dx, dy, dphi) moves the hit by (dx - dphi qy, dy + dphi qx).
-      const Eigen::Vector3d gradient(nx, ny, ny * qx - nx * qy);
-      const double scaled = residual * inverse_scale;
-      const double weight = 1.0 / (1.0 + scaled * scaled);
-      const Eigen::Vector3d weighted = weight * gradient;
-      equations.matrix.noalias() += weighted * gradient.transpose();
-      equations.right -= residual * weighted;
-      ++equations.beams;
-    }
-    return equations;
-  };
-
-  NormalEquations equations = linearize();
+  NormalEquations equations = linearize(pose, predicted);
   for (int iteration = 0; iteration < max_iterations && equations.beams >= 3; ++iteration) {
     // A little damping: along a corridor nothing holds the pose.
     const Eigen::Matrix3d damped = equations.matrix + 1e-3 * static_cast<double>(equations.beams) *
@@ -114,7 +129,7 @@ RefinedPose PoseRefiner::refine(const mrpt::math::TPose2D& start, int max_iterat
     pose.x += c * step[0] - s * step[1];
     pose.y += s * step[0] + c * step[1];
     pose.phi += step[2];
-    equations = linearize();
+    equations = linearize(pose, predicted);
     if (step.head<2>().norm() < params_.step_tolerance &&
         std::abs(step[2]) < params_.turn_tolerance) {
       break;

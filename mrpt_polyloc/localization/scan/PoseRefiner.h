@@ -7,6 +7,7 @@
 #include <mrpt/math/CMatrixFixed.h>
 #include <mrpt/math/TPose2D.h>
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -17,6 +18,14 @@ struct RefinedPose {
   mrpt::math::TPose2D pose_map_beams;
   mrpt::math::CMatrixDouble33 information;  ///< of (x, y, phi), at the optimum
   std::size_t used_beams = 0;
+};
+
+/// The normal equations of one step of refinement, residuals weighted robustly: matrix * step =
+/// right, the step (along x, along y, turn) in the axes of the frame it is of.
+struct RefinementStep {
+  mrpt::math::CMatrixDouble33 matrix;  ///< [beams, m, m^2]; not yet divided by a variance
+  std::array<double, 3> right{};       ///< [m, m, m^2]
+  std::size_t beams = 0;               ///< that take part
 };
 
 /// Moves poses to where the scan fits best: Gauss-Newton on the distances between the hits and the
@@ -32,8 +41,13 @@ class PoseRefiner {
   RefinedPose refine(const mrpt::math::TPose2D& pose_map_beams) const;
   /// A pose as it is, with what the scan says there.
   RefinedPose at(const mrpt::math::TPose2D& pose_map_beams) const;
+  /// One step from a pose, not taken: for those who refine several poses at once. In the beam
+  /// frame.
+  RefinementStep step(const mrpt::math::TPose2D& pose_map_beams) const;
 
  private:
+  struct NormalEquations;
+  NormalEquations linearize(const mrpt::math::TPose2D& pose, PredictedHits& predicted) const;
   RefinedPose refine(const mrpt::math::TPose2D& start, int max_iterations) const;
 
   const RangePredictor* predictor_;

@@ -14,6 +14,9 @@ struct Certificate {
   double cost = 0.0;        ///< search cost [m]: a mean over the beams searched with
   bool is_complete = true;  ///< false: a budget ended the search before the margin was reached
   std::size_t regions = 0;  ///< not excluded, each a leaf and a few degrees of heading
+  /// Of a scan set: the moment of the scan that was searched, and its number among those of the
+  /// moment. The certificate speaks of poses of that scan alone.
+  std::size_t moment = 0, scan = 0;
 };
 
 /// Poses of the beam frame (see RangeScan) in the map that could not be excluded.

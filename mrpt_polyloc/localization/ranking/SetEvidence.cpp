@@ -1,0 +1,91 @@
+#include <mrpt_polyloc/localization/ranking/SetEvidence.h>
+#include <mrpt_polyloc/localization/scan/beam_evidence.h>
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace mrpt_polyloc {
+namespace {
+
+double meanOf(const std::vector<float>& values) {
+  if (values.empty()) return 0.0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+SetEvidence::SetEvidence(const RangePredictor& predictor, const ScanSet& set,
+                         const MomentWeights& weights, const RobustCostParams& cost,
+                         const BeamEvidenceParams& evidence)
+    : set_(&set), weights_(&weights), evidence_(evidence) {
+  for (const Moment& moment : set.moments()) {
+    std::vector<ScanCost> costs;
+    std::vector<Beam> beams;
+    for (const RangeScan& scan : moment.scans) {
+      costs.emplace_back(predictor, scan, cost);
+      beams.insert(beams.end(), costs.back().beams().begin(), costs.back().beams().end());
+    }
+    costs_.push_back(std::move(costs));
+    sectors_.emplace_back(beams);
+  }
+}
+
+double SetEvidence::cost(const std::vector<mrpt::math::TPose2D>& way) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < costs_.size(); ++k) {
+    double of_moment = 0.0;
+    std::size_t beams = 0;
+    for (std::size_t i = 0; i < costs_[k].size(); ++i) {
+      const mrpt::math::TPose2D pose = set_->moments()[k].scans[i].beamFrameFromRobot(way[k]);
+      of_moment += costs_[k][i].mean(pose) * static_cast<double>(costs_[k][i].beamCount());
+      beams += costs_[k][i].beamCount();
+    }
+    if (beams > 0) sum += weights_->weights[k] * of_moment / static_cast<double>(beams);
+  }
+  return sum;
+}
+
+SetEvidence::Values SetEvidence::at(const std::vector<mrpt::math::TPose2D>& way) const {
+  Values values(costs_.size());
+  PredictedRanges predicted;
+  for (std::size_t k = 0; k < costs_.size(); ++k) {
+    for (std::size_t i = 0; i < costs_[k].size(); ++i) {
+      costs_[k][i].predict(set_->moments()[k].scans[i].beamFrameFromRobot(way[k]), predicted);
+      const std::vector<float> of_scan = beamEvidence(costs_[k][i].beams(), predicted, evidence_);
+      values[k].insert(values[k].end(), of_scan.begin(), of_scan.end());
+    }
+  }
+  return values;
+}
+
+double SetEvidence::mean(const Values& values) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < values.size(); ++k) sum += weights_->weights[k] * meanOf(values[k]);
+  return sum;
+}
+
+PairedDifference SetEvidence::difference(const Values& a, const Values& b) const {
+  std::vector<PairedDifference> of_moments;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    of_moments.push_back(sectors_[k].difference(a[k], b[k]));
+  }
+  PairedDifference result;
+  double variance = 0.0;
+  for (std::size_t k = 0; k < of_moments.size(); ++k) {
+    const double weight = weights_->weights[k];
+    result.mean += weight * of_moments[k].mean;
+    for (std::size_t l = 0; l < of_moments.size(); ++l) {
+      variance += weight * weights_->weights[l] * weights_->correlations[k][l] *
+                  of_moments[k].standard_error * of_moments[l].standard_error;
+    }
+  }
+  result.standard_error = std::sqrt(variance);
+  return result;
+}
+
+double standardErrors(const PairedDifference& difference, double indifference) {
+  return difference.mean / std::hypot(difference.standard_error, indifference);
+}
+
+}  // namespace mrpt_polyloc
