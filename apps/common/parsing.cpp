@@ -93,6 +93,16 @@ mrpt::math::TPoint2D parsePoint(const std::string& option, const std::string& te
   return {numbers[0], numbers[1]};
 }
 
+MotionNoise parseMotionNoise(const std::string& text) {
+  const std::vector<double> numbers = parseNumbers(text, 3);
+  if (numbers.empty() || numbers[0] < 0.0 || numbers[1] < 0.0 || numbers[2] < 0.0) {
+    throw UsageError("--odometry-noise: '" + text +
+                     "' is not A,B,C, none below 0: metres a metre, degrees a metre, degrees a "
+                     "radian");
+  }
+  return {numbers[0], toRadians(numbers[1]), toRadians(numbers[2])};
+}
+
 Tolerance parseTolerance(const std::string& text) {
   const std::vector<double> numbers = parseNumbers(text, 2);
   if (numbers.empty() || numbers[0] <= 0.0 || numbers[1] <= 0.0 || numbers[1] > 180.0) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/evaluation/Summary.h>
+#include <mrpt_polyloc/localization/scan/Motion.h>
 #include <mrpt_polyloc/localization/scan/PosePrior.h>
 
 #include <mrpt/math/TPoint2D.h>
@@ -40,6 +41,10 @@ PosePrior::Disk parseDisk(const std::string& text);
 /// `X,Y`: a point of the map [m], for an option of that name.
 /// \throws UsageError
 mrpt::math::TPoint2D parsePoint(const std::string& option, const std::string& text);
+
+/// `A,B,C`: errors of wheels, metres a metre, degrees a metre, degrees a radian turned.
+/// \throws UsageError
+MotionNoise parseMotionNoise(const std::string& text);
 
 /// `M,DEG`: a tolerance, both positive, at most 180 degrees.
 /// \throws UsageError

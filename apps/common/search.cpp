@@ -96,7 +96,8 @@ ScanLocalizer shared(Localizer localizer, const SearchOptions& search, std::size
           [held, options = optionsOf(search)](const RangeScan& scan, const PosePrior& prior) {
             return held->localize(scan, prior, options);
           },
-          bytes};
+          bytes,
+          {}};
 }
 
 ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
@@ -105,7 +106,13 @@ ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
   GlobalLocalizerParams params;
   params.hypotheses.calibration = calibrationOf(search);
   const MapIndex::Ptr index = makeIndex(std::move(map), search.index, index_params);
-  return shared(GlobalLocalizer(index, params), search, index->bytes());
+  const auto held = std::make_shared<const GlobalLocalizer>(index, params);
+  ScanLocalizer localizer = shared(GlobalLocalizer(*held), search, index->bytes());
+  localizer.localize_set = [held, options = optionsOf(search)](const ScanSet& set,
+                                                               const PosePrior& prior) {
+    return held->localize(set, prior, options);
+  };
+  return localizer;
 }
 
 ScanLocalizer makeCells(PolygonMap map, const SearchOptions& search) {
@@ -129,7 +136,8 @@ ScanLocalizer exactLocalizer(const PolygonMap& map, std::size_t max_hypotheses) 
             return resultOf(localizer->localize(viewPolygon(scan), prior), localizer->tolerance(),
                             max_hypotheses);
           },
-          localizer->bytes()};
+          localizer->bytes(),
+          {}};
 }
 
 ScanLocalizer makeExact(const PolygonMap& map, const SearchOptions& search, std::size_t scans) {

@@ -7,6 +7,7 @@
 #include <mrpt_polyloc/localization/ranking/Calibration.h>
 #include <mrpt_polyloc/localization/scan/PosePrior.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
+#include <mrpt_polyloc/localization/scan/ScanSet.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -48,6 +49,8 @@ struct ScanLocalizer {
   /// Const, thread-safe, and independent of what was localized before.
   std::function<LocalizationResult(const RangeScan&, const PosePrior&)> localize;
   std::size_t index_bytes = 0;  ///< memory of what was prepared
+  /// The same for scan sets; only of the certified method.
+  std::function<LocalizationResult(const ScanSet&, const PosePrior&)> localize_set;
 };
 
 /// Adds --index, --time-budget and --search-metric, which are usage errors with another method than

@@ -1,13 +1,35 @@
 #include "EvaluationOptions.h"
 
 #include "../common/parsing.h"
+#include <mrpt_polyloc/evaluation/simulated_odometry.h>
 #include <mrpt_polyloc/evaluation/truth.h>
 
 namespace mrpt_polyloc::apps {
+namespace {
+
+/// Gives a drive the movements that wheels would have measured along the true poses.
+void driveAlong(const std::vector<mrpt::math::TPose2D>& truth, const MotionNoise& noise,
+                std::uint64_t seed, DriveLog& drive) {
+  const std::vector<Motion> motions = simulatedOdometry(truth, noise, seed);
+  for (std::size_t i = 1; i < motions.size(); ++i) {
+    drive.moments[i].since_before = motions[i];
+    drive.moments[i].is_after_gap = false;
+  }
+  drive.has_odometry = true;
+}
+
+}  // namespace
 
 void addEvaluationOptions(CLI::App& cli, EvaluationOptions& options) {
   options.search.max_hypotheses = 50;
   addSearchOptions(cli, options.search);
+  addSetOptions(cli, options.sets, options.search.file);
+  cli.add_option_function<std::string>(
+         "--odometry-noise",
+         [&options](const std::string& text) { options.sets.noise = parseMotionNoise(text); },
+         "Errors of the odometry that is made from the truth where the log holds none, for "
+         "--accumulate: m a metre, deg a metre, deg a radian [default: 0.02,1,2]")
+      ->type_name("A,B,C");
   addText(cli, "--truth", options.truth, "True poses of the robot, one a scan, matched by stamp")
       ->required()
       ->type_name("TRUTH.tum");
@@ -21,8 +43,17 @@ void addEvaluationOptions(CLI::App& cli, EvaluationOptions& options) {
 
 EvaluationInputs loadInputs(const Program& program, const EvaluationOptions& options) {
   EvaluationInputs inputs;
-  inputs.scans = loadSearchedScans(program, options.search);
+  inputs.sets = options.sets;
+  if (options.sets.areAsked(options.search.file)) {
+    inputs.drive = loadSearchedDrive(program, options.search, options.sets);
+  }
+  inputs.scans =
+      inputs.drive ? firstScans(*inputs.drive) : loadSearchedScans(program, options.search);
   inputs.truth = matchTruth(inputs.scans, loadTum(options.truth), options.truth);
+  if (inputs.drive && !inputs.drive->has_odometry) {
+    constexpr std::uint64_t kSeed = 1;
+    driveAlong(inputs.truth, options.sets.noise, kSeed, *inputs.drive);
+  }
   if (!options.good.empty()) inputs.good = loadRows(options.good, inputs.scans.size());
   return inputs;
 }

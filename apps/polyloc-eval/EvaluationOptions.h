@@ -1,6 +1,7 @@
 #pragma once
 
 #include "../common/Cli.h"
+#include "../common/scan_sets.h"
 #include "../common/search.h"
 #include <mrpt_polyloc/evaluation/Summary.h>
 #include <mrpt_polyloc/evaluation/summary_json.h>
@@ -18,6 +19,7 @@ namespace mrpt_polyloc::apps {
 /// and each pair of a list.
 struct EvaluationOptions {
   SearchOptions search;
+  SetOptions sets;
   std::string truth, good;
   Tolerance tolerance;
 };
@@ -27,12 +29,14 @@ void addEvaluationOptions(CLI::App& cli, EvaluationOptions& options);
 
 /// What is read before anything is searched.
 struct EvaluationInputs {
-  std::vector<RangeScan> scans;
+  SetOptions sets;
+  std::optional<DriveLog> drive;  ///< where a row may be more than one scan
+  std::vector<RangeScan> scans;  ///< of a drive the first of each moment
   std::vector<mrpt::math::TPose2D> truth;  ///< of each scan
   std::optional<std::vector<std::size_t>> good;
 };
 
-/// \throws FormatError
+/// Of a drive without odometry the movements are made from the truth. \throws FormatError
 EvaluationInputs loadInputs(const Program& program, const EvaluationOptions& options);
 
 /// A localized scan against its truth.

@@ -39,9 +39,7 @@ void addScanOptions(CLI::App& cli, LocalizeOptions& options) {
          },
          "Only these scans: 0-based, ranges inclusive")
       ->type_name("I,J-K");
-  addText(cli, "--sensor", options.search.file.sensor_label,
-          "Only scans of the sensor of this label")
-      ->type_name("LABEL");
+  addSetOptions(cli, options.sets, options.search.file);
   addNumber(
       cli, "--laser-fov",
       [&options](double degrees) { options.search.file.laser_fov = toRadians(degrees); },

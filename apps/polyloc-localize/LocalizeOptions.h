@@ -1,6 +1,7 @@
 #pragma once
 
 #include "../common/parsing.h"
+#include "../common/scan_sets.h"
 #include "../common/search.h"
 #include <mrpt_polyloc/localization/scan/PosePrior.h>
 
@@ -14,6 +15,7 @@ namespace mrpt_polyloc::apps {
 /// The command line of polyloc-localize.
 struct LocalizeOptions {
   SearchOptions search;
+  SetOptions sets;
   PosePrior prior;
   double compass_tolerance_deg = 10.0;  ///< what a compass indoors is good for
   std::string rows;                     ///< --rows as given, for messages

@@ -12,6 +12,7 @@
 #include <mrpt_polyloc/base/errors.h>
 
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,11 +51,17 @@ int localize(const Program& program, const LocalizeOptions& options) {
     requireWritable(path);
   }
   RepairedMap loaded = loadMapWithWarnings(program, options.search.map, options.search.scale);
-  const std::vector<RangeScan> scans = loadSearchedScans(program, options.search);
+  std::optional<DriveLog> drive;
+  if (options.sets.areAsked(options.search.file)) {
+    drive = loadSearchedDrive(program, options.search, options.sets);
+  }
+  const std::vector<RangeScan> scans =
+      drive ? firstScans(*drive) : loadSearchedScans(program, options.search);
   const std::vector<std::size_t> rows = chosenRows(options, scans.size());
   const ScanLocalizer localizer = makeLocalizer(std::move(loaded.map), options.search, rows.size());
   const std::vector<LocalizedScan> localized =
-      localizeScans(localizer, scans, rows, options.prior, options.search);
+      drive ? localizeDrive(localizer, *drive, options.sets, rows, options.prior, options.search)
+            : localizeScans(localizer, scans, rows, options.prior, options.search);
 
   OutputFiles files;
   const std::string csv = hypothesisCsv(localized);

@@ -123,7 +123,7 @@ LoggedScan readFlaser(CarmenLine& line) {
   scan.ranges = readRanges(line);
   line.requireFields(kFlaserTail);
   readPose(line, "laser pose");
-  readPose(line, "odometry pose");
+  scan.odometry = readPose(line, "odometry pose");
   scan.stamp = readStamp(line);
   return scan;
 }
@@ -165,6 +165,7 @@ LoggedScan readRobotLaser(CarmenLine& line) {
     line.number(what);
   }
   scan.stamp = readStamp(line);
+  scan.odometry = robot;
   const double dx = laser.x - robot.x, dy = laser.y - robot.y;
   if (std::hypot(dx, dy) > kMaxSensorOffset) {
     line.fail("the laser is more than 5 m from its robot");
@@ -225,7 +226,7 @@ class Reader {
 
  private:
   bool isWanted(const std::string& keyword) {
-    if (!options_.sensor_label.empty() && keyword == options_.sensor_label) return true;
+    if (!options_.sensor_label.empty() && isAskedFor(keyword, options_.sensor_label)) return true;
     if (isFirstChoice(keyword)) {
       has_first_choice_ = true;
       return true;
@@ -270,17 +271,18 @@ std::vector<LoggedScan> withoutRepetitions(std::vector<LoggedScan> scans,
                                            const std::string& wanted) {
   const auto first = [](const LoggedScan& scan) { return isFirstChoice(scan.label); };
   if (std::none_of(scans.begin(), scans.end(), first)) return scans;
-  scans.erase(
-      std::remove_if(scans.begin(), scans.end(),
-                     [&](const LoggedScan& scan) { return !first(scan) && scan.label != wanted; }),
-      scans.end());
+  scans.erase(std::remove_if(scans.begin(), scans.end(),
+                             [&](const LoggedScan& scan) {
+                               return !first(scan) && !isAskedFor(scan.label, wanted);
+                             }),
+              scans.end());
   return scans;
 }
 
 }  // namespace
 
-std::vector<RangeScan> loadCarmen(const std::string& path, const ScanFileOptions& options,
-                                  Notes* notes) {
+std::vector<LoggedScan> loadLoggedCarmen(const std::string& path, const ScanFileOptions& options,
+                                         Notes* notes) {
   const auto& fov = options.laser_fov;
   if (fov && !(*fov > 0.0 && *fov <= 2 * kPi + 1e-9)) {
     throw InvalidParamsError("laser_fov is " + std::to_string(*fov) + ", not in (0, 2 pi]");
@@ -293,7 +295,12 @@ std::vector<RangeScan> loadCarmen(const std::string& path, const ScanFileOptions
   for (const std::size_t i : selectSensor(path, labels, options.sensor_label)) {
     selected.push_back(std::move(scans[i]));
   }
-  return toRangeScans(path, std::move(selected), options.readings, notes);
+  return selected;
+}
+
+std::vector<RangeScan> loadCarmen(const std::string& path, const ScanFileOptions& options,
+                                  Notes* notes) {
+  return toRangeScans(path, loadLoggedCarmen(path, options, notes), options.readings, notes);
 }
 
 }  // namespace mrpt_polyloc

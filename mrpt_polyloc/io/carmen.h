@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/io/readings.h>
 #include <mrpt_polyloc/io/scan_files.h>
 
 namespace mrpt_polyloc {
@@ -33,5 +34,11 @@ namespace mrpt_polyloc {
 /// file itself. InvalidParamsError if `options.laser_fov` is not in (0, 2 pi].
 std::vector<RangeScan> loadCarmen(const std::string& path, const ScanFileOptions& options = {},
                                   Notes* notes = nullptr);
+
+/// The same before it is known what readings say, with the robot's pose by its wheels where the
+/// lines hold one (FLASER and RLASER: the odometry pose; ROBOTLASER: the robot's pose). Several
+/// labels may be asked for, see selectSensor().
+std::vector<LoggedScan> loadLoggedCarmen(const std::string& path, const ScanFileOptions& options,
+                                         Notes* notes);
 
 }  // namespace mrpt_polyloc

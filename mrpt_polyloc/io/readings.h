@@ -3,6 +3,7 @@
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <mrpt/math/TPoint2D.h>
+#include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
 #include <optional>
@@ -46,6 +47,8 @@ struct LoggedScan {
   double stamp = 0.0;                         ///< [s]
   std::string label;
   std::string place;  ///< in its file, for messages
+  /// Of the robot by its wheels, in a frame of their own [m, rad]; none if the log does not say.
+  std::optional<mrpt::math::TPose2D> odometry;
 
   bool isValid(std::size_t i) const { return flags.empty() || flags[i] != 0; }
 };

@@ -2,6 +2,7 @@
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/localization/scan/ScanSet.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -41,6 +42,7 @@ ScanSet::ScanSet(std::vector<Moment> moments) : moments_(std::move(moments)) {
     scan_count_ += moments_[i].scans.size();
     for (const RangeScan& scan : moments_[i].scans) hit_count_ += scan.hitCount();
     if (i == 0) continue;
+    if (moments_[i].is_after_gap) throw InvalidParamsError(name + " comes after a gap");
     moments_[i].since_before.check();
     if (isFalling(moments_[i - 1], moments_[i])) {
       throw InvalidParamsError(name + " is before the one that it follows, by its stamp");
@@ -56,7 +58,7 @@ const RangeScan* ScanSet::single() const {
   return scan_count_ == 1 ? &moments_.front().scans.front() : nullptr;
 }
 
-void ScanAccumulatorParams::check() const {
+void LastMetresParams::check() const {
   requireNotNegative("length", length);
   requireNotNegative("spacing", spacing);
   requireNotNegative("turn", turn);
@@ -64,34 +66,46 @@ void ScanAccumulatorParams::check() const {
   requirePositive("longest_step", longest_step);
 }
 
-ScanAccumulator::ScanAccumulator(const ScanAccumulatorParams& params) : params_(params) {
+ScanSet lastMetres(const std::vector<Moment>& drive, std::size_t now,
+                   const LastMetresParams& params) {
+  std::vector<Moment> kept{drive[now]};
+  Motion since_kept;  // from the moment looked at to the last one kept
+  double way = 0.0;
+  for (std::size_t i = now; i > 0; --i) {
+    const Motion& step = drive[i].since_before;
+    if (drive[i].is_after_gap || step.length() > params.longest_step) break;
+    way += step.length();
+    if (way > params.length || kept.size() >= params.most_moments) break;
+    since_kept = step + since_kept;
+    if (since_kept.length() < params.spacing &&
+        std::abs(since_kept.pose_before_after.phi) < params.turn) {
+      continue;
+    }
+    kept.back().since_before = since_kept;
+    kept.push_back(drive[i - 1]);
+    since_kept = Motion();
+  }
+  std::reverse(kept.begin(), kept.end());
+  kept.front().is_after_gap = false;
+  return ScanSet(std::move(kept));
+}
+
+ScanAccumulator::ScanAccumulator(const LastMetresParams& params) : params_(params) {
   params_.check();
 }
 
 ScanSet ScanAccumulator::add(std::vector<RangeScan> scans, const Motion& since_before) {
-  if (!moments_.empty() && since_before.length() > params_.longest_step) moments_.clear();
-  Moment now{std::move(scans), since_before};
-  if (!moments_.empty()) {
-    // The last one stays only if it is far enough from the one before it, whichever comes next.
-    const Motion& last = moments_.back().since_before;
-    const bool is_near =
-        last.length() < params_.spacing && std::abs(last.pose_before_after.phi) < params_.turn;
-    if (moments_.size() > 1 && is_near) {
-      now.since_before = last + since_before;
-      moments_.pop_back();
-    }
-  }
-  moments_.push_back(std::move(now));
-  // What lies farther back than the length of the way is forgotten.
+  drive_.push_back({std::move(scans), since_before, false});
   double way = 0.0;
-  std::size_t first = moments_.size() - 1;
-  while (first > 0) {
-    way += moments_[first].since_before.length();
-    if (way > params_.length || moments_.size() - first >= params_.most_moments) break;
+  std::size_t first = drive_.size() - 1;
+  while (first > 0 && way <= params_.length) {
+    const double step = drive_[first].since_before.length();
+    if (drive_[first].is_after_gap || step > params_.longest_step) break;
+    way += step;
     --first;
   }
-  moments_.erase(moments_.begin(), moments_.begin() + static_cast<std::ptrdiff_t>(first));
-  return ScanSet(moments_);
+  drive_.erase(drive_.begin(), drive_.begin() + static_cast<std::ptrdiff_t>(first));
+  return lastMetres(drive_, drive_.size() - 1, params_);
 }
 
 }  // namespace mrpt_polyloc

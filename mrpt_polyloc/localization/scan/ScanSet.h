@@ -12,6 +12,8 @@ namespace mrpt_polyloc {
 struct Moment {
   std::vector<RangeScan> scans;
   Motion since_before;  ///< since the moment before; of the first moment it is not looked at
+  /// Nothing is known of the way here: what was before does not belong to it.
+  bool is_after_gap = false;
 };
 
 /// Scans that belong together: several lasers of one moment, the last metres of a drive, or both.
@@ -24,8 +26,9 @@ class ScanSet {
   /// Several lasers of one moment. \throws InvalidParamsError as below
   explicit ScanSet(std::vector<RangeScan> scans);
   /// A drive, the first moment first, now last.
-  /// \throws InvalidParamsError if there is no moment, one has no scan, a movement is not finite,
-  /// or stamps fall from one moment to the next (stamps of 0 are not known)
+  /// \throws InvalidParamsError if there is no moment, one has no scan, a movement is not finite, a
+  /// moment but the first comes after a gap, or stamps fall from one moment to the next (stamps of
+  /// 0 are not known)
   explicit ScanSet(std::vector<Moment> moments);
 
   const std::vector<Moment>& moments() const { return moments_; }
@@ -49,25 +52,32 @@ class ScanSet {
 /// Scans with time stamps at most so far apart are of one moment [s].
 constexpr double kOneMoment = 0.05;
 
-struct ScanAccumulatorParams {
+struct LastMetresParams {
   double length = 2.0;  ///< what was seen on the last so many metres is kept [m]; 0: now alone
   /// Of moments nearer together than this [m] ...
   double spacing = 0.2;
   /// ... and turned by less than this [rad] only the later is kept: they see the same.
   double turn = 0.2617993877991494;  // 15 degrees
   std::size_t most_moments = 12;     ///< the latest so many are kept
-  /// A movement between two scans that is longer than this [m] is no drive but a jump, or a gap of
-  /// the log: what was before is forgotten.
+  /// A movement from one moment to the next that is longer than this [m] is no drive but a jump of
+  /// the wheels, or a gap of the log: what was before is not looked at.
   double longest_step = 1.0;
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;
 };
 
-/// Gathers the last metres of a drive, scan by scan.
+/// What was seen on the last metres of a drive before a moment, and at it.
+/// \param now index into `drive`
+/// \throws InvalidParamsError as ScanSet
+ScanSet lastMetres(const std::vector<Moment>& drive, std::size_t now,
+                   const LastMetresParams& params = {});
+
+/// Gathers the last metres of a drive, moment by moment.
 class ScanAccumulator {
  public:
-  explicit ScanAccumulator(const ScanAccumulatorParams& params = {});
+  /// \throws InvalidParamsError
+  explicit ScanAccumulator(const LastMetresParams& params = {});
 
   /// What is seen now. \param since_before the movement since the last call; of the first call it
   /// is not looked at
@@ -76,11 +86,11 @@ class ScanAccumulator {
   ScanSet add(std::vector<RangeScan> scans, const Motion& since_before);
 
   /// Forgets what was seen: the robot may have been carried.
-  void clear() { moments_.clear(); }
+  void clear() { drive_.clear(); }
 
  private:
-  ScanAccumulatorParams params_;
-  std::vector<Moment> moments_;
+  LastMetresParams params_;
+  std::vector<Moment> drive_;
 };
 
 }  // namespace mrpt_polyloc

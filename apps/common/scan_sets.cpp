@@ -1,0 +1,76 @@
+#include "scan_sets.h"
+
+#include "Progress.h"
+#include <mrpt_polyloc/base/Stopwatch.h>
+#include <mrpt_polyloc/base/errors.h>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <utility>
+
+namespace mrpt_polyloc::apps {
+
+bool SetOptions::areAsked(const ScanFileOptions& file) const {
+  return accumulate > 0.0 || file.sensor_label == "all" ||
+         file.sensor_label.find(',') != std::string::npos;
+}
+
+void addSetOptions(CLI::App& cli, SetOptions& sets, ScanFileOptions& file) {
+  addText(cli, "--sensor", file.sensor_label,
+          "Only scans of these sensors; of several the scans of one moment (a frame, or 50 ms) are "
+          "one row")
+      ->type_name("LABEL[,LABEL...]|all");
+  addNumber(cli, "--accumulate", sets.accumulate, {0.0, 1e3},
+            "Localize each row with the scans of the last M metres of odometry before it, too "
+            "[default: 0, alone]")
+      ->type_name("M");
+}
+
+DriveLog loadSearchedDrive(const Program& program, const SearchOptions& search,
+                           const SetOptions& sets) {
+  if (search.method != "certified") {
+    throw UsageError("--accumulate and several sensors need --method certified");
+  }
+  Notes notes;
+  DriveLog drive = loadDrive(search.scans, search.file, sets.noise, &notes);
+  program.note(search.scans, notes);
+  return drive;
+}
+
+std::vector<RangeScan> firstScans(const DriveLog& drive) {
+  std::vector<RangeScan> scans;
+  for (const Moment& moment : drive.moments) scans.push_back(moment.scans.front());
+  return scans;
+}
+
+std::vector<LocalizedScan> localizeDrive(const ScanLocalizer& localizer, const DriveLog& drive,
+                                         const SetOptions& sets,
+                                         const std::vector<std::size_t>& rows,
+                                         const PosePrior& prior, const SearchOptions& search) {
+  if (sets.accumulate > 0.0 && !drive.has_odometry) {
+    throw FormatError(search.scans, "--accumulate",
+                      "the log does not say how the robot moved: there is no odometry in it");
+  }
+  LastMetresParams last;
+  last.length = sets.accumulate;
+  std::vector<LocalizedScan> localized(rows.size());
+  Progress progress("scan", rows.size());
+  const auto step = [&](std::size_t i) {
+    const ScanSet set = lastMetres(drive.moments, rows[i], last);
+    const Stopwatch watch;
+    LocalizationResult result = localizer.localize_set(set, prior);
+    localized[i] = {rows[i], set.now().scans.front().stamp(), std::move(result),
+                    1e3 * watch.seconds()};
+    progress.step();
+  };
+  if (search.threads > 1) {
+    tbb::task_arena arena(static_cast<int>(search.threads));
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, rows.size(), step); });
+  } else {
+    for (std::size_t i = 0; i < rows.size(); ++i) step(i);
+  }
+  return localized;
+}
+
+}  // namespace mrpt_polyloc::apps
