@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <functional>
 #include <utility>
 
 namespace mrpt_polyloc::apps {
@@ -30,7 +31,7 @@ void addSetOptions(CLI::App& cli, SetOptions& sets, ScanFileOptions& file) {
 DriveLog loadSearchedDrive(const Program& program, const SearchOptions& search,
                            const SetOptions& sets) {
   if (search.method != "certified") {
-    throw UsageError("--accumulate and several sensors need --method certified");
+    throw UsageError("--accumulate, several sensors and several maps need --method certified");
   }
   Notes notes;
   DriveLog drive = loadDrive(search.scans, search.file, sets.noise, &notes);
@@ -44,10 +45,12 @@ std::vector<RangeScan> firstScans(const DriveLog& drive) {
   return scans;
 }
 
-std::vector<LocalizedScan> localizeDrive(const ScanLocalizer& localizer, const DriveLog& drive,
-                                         const SetOptions& sets,
-                                         const std::vector<std::size_t>& rows,
-                                         const PosePrior& prior, const SearchOptions& search) {
+namespace {
+
+/// Localizes rows of a drive, so many threads at a time.
+std::vector<LocalizedScan> localizeRows(
+    const DriveLog& drive, const SetOptions& sets, const std::vector<std::size_t>& rows,
+    const SearchOptions& search, const std::function<void(const ScanSet&, LocalizedScan&)>& take) {
   if (sets.accumulate > 0.0 && !drive.has_odometry) {
     throw FormatError(search.scans, "--accumulate",
                       "the log does not say how the robot moved: there is no odometry in it");
@@ -59,9 +62,10 @@ std::vector<LocalizedScan> localizeDrive(const ScanLocalizer& localizer, const D
   const auto step = [&](std::size_t i) {
     const ScanSet set = lastMetres(drive.moments, rows[i], last);
     const Stopwatch watch;
-    LocalizationResult result = localizer.localize_set(set, prior);
-    localized[i] = {rows[i], set.now().scans.front().stamp(), std::move(result),
-                    1e3 * watch.seconds()};
+    take(set, localized[i]);
+    localized[i].row = rows[i];
+    localized[i].stamp = set.now().scans.front().stamp();
+    localized[i].ms = 1e3 * watch.seconds();
     progress.step();
   };
   if (search.threads > 1) {
@@ -71,6 +75,29 @@ std::vector<LocalizedScan> localizeDrive(const ScanLocalizer& localizer, const D
     for (std::size_t i = 0; i < rows.size(); ++i) step(i);
   }
   return localized;
+}
+
+}  // namespace
+
+std::vector<LocalizedScan> localizeDrive(const ScanLocalizer& localizer, const DriveLog& drive,
+                                         const SetOptions& sets,
+                                         const std::vector<std::size_t>& rows,
+                                         const PosePrior& prior, const SearchOptions& search) {
+  return localizeRows(drive, sets, rows, search, [&](const ScanSet& set, LocalizedScan& scan) {
+    scan.result = localizer.localize_set(set, prior);
+  });
+}
+
+std::vector<LocalizedScan> localizeDrive(const MultiMapSearch& localize,
+                                         const std::vector<std::string>& names,
+                                         const DriveLog& drive, const SetOptions& sets,
+                                         const std::vector<std::size_t>& rows,
+                                         const PosePrior& prior, const SearchOptions& search) {
+  return localizeRows(drive, sets, rows, search, [&](const ScanSet& set, LocalizedScan& scan) {
+    std::vector<std::size_t> maps;
+    scan.result = localize(set, prior, maps);
+    for (const std::size_t map : maps) scan.maps.push_back(names[map]);
+  });
 }
 
 }  // namespace mrpt_polyloc::apps

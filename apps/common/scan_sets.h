@@ -39,4 +39,11 @@ std::vector<LocalizedScan> localizeDrive(const ScanLocalizer& localizer, const D
                                          const std::vector<std::size_t>& rows,
                                          const PosePrior& prior, const SearchOptions& search);
 
+/// The same over several maps. \param names of the maps, for LocalizedScan::maps
+std::vector<LocalizedScan> localizeDrive(const MultiMapSearch& localize,
+                                         const std::vector<std::string>& names,
+                                         const DriveLog& drive, const SetOptions& sets,
+                                         const std::vector<std::size_t>& rows,
+                                         const PosePrior& prior, const SearchOptions& search);
+
 }  // namespace mrpt_polyloc::apps

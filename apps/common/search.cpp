@@ -10,6 +10,7 @@
 #include <mrpt_polyloc/evaluation/calibration_files.h>
 #include <mrpt_polyloc/localization/CellLocalizer.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
+#include <mrpt_polyloc/localization/MultiMapLocalizer.h>
 #include <mrpt_polyloc/localization/exact/ExactLocalizer.h>
 #include <mrpt_polyloc/localization/exact/SkeletonLocalizer.h>
 
@@ -151,7 +152,7 @@ LocalizedScan localizeOne(const ScanLocalizer& localizer, const RangeScan& scan,
   const Stopwatch watch;
   LocalizationResult result = localizer.localize(scan, prior);
   const double ms = 1e3 * watch.seconds();
-  return {row, scan.stamp(), std::move(result), ms};
+  return {row, scan.stamp(), std::move(result), ms, {}};
 }
 
 }  // namespace
@@ -220,6 +221,24 @@ ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::si
   if (search.method == "exact") return makeExact(map, search, scans);
   if (search.method == "cells") return makeCells(std::move(map), search);
   return makeGlobal(std::move(map), search);
+}
+
+MultiMapSearch makeMultiMapSearch(std::vector<PolygonMap> maps, const SearchOptions& search) {
+  std::vector<GlobalLocalizer> localizers;
+  for (PolygonMap& map : maps) {
+    MapIndexParams index_params;
+    index_params.threads = static_cast<int>(search.threads);
+    GlobalLocalizerParams params;
+    params.hypotheses.calibration = calibrationOf(search);
+    localizers.emplace_back(MapIndex::build(std::move(map), index_params), params);
+  }
+  const auto held = std::make_shared<const MultiMapLocalizer>(std::move(localizers));
+  return [held, options = optionsOf(search)](const ScanSet& set, const PosePrior& prior,
+                                             std::vector<std::size_t>& maps_of) {
+    MultiMapResult found = held->localize(set, prior, options);
+    maps_of = std::move(found.maps);
+    return std::move(found.result);
+  };
 }
 
 std::vector<RangeScan> loadSearchedScans(const Program& program, const SearchOptions& search) {

@@ -62,6 +62,14 @@ void addCertifiedOptions(CLI::App& options, SearchOptions& search);
 /// \throws FormatError naming the index or the calibration file; CellBudgetError
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::size_t scans);
 
+/// What a method that searches several maps is to the programs: a scan set in, all poses out, and
+/// the number of the map of each.
+using MultiMapSearch = std::function<LocalizationResult(const ScanSet& set, const PosePrior& prior,
+                                                        std::vector<std::size_t>& maps)>;
+
+/// The certified search over several maps.
+MultiMapSearch makeMultiMapSearch(std::vector<PolygonMap> maps, const SearchOptions& search);
+
 /// What the method searches for: the scans of a log, with notes on what was assumed of it, or, for
 /// `exact`, the polygons of a WKT file (see loadViewPolygons()).
 std::vector<RangeScan> loadSearchedScans(const Program& program, const SearchOptions& search);
@@ -71,7 +79,8 @@ struct LocalizedScan {
   std::size_t row = 0;  ///< index in the file
   double stamp = 0.0;   ///< [s]
   LocalizationResult result;
-  double ms = 0.0;  ///< wall time of this scan
+  double ms = 0.0;                ///< wall time of this scan
+  std::vector<std::string> maps;  ///< of each hypothesis, where several maps are searched
 };
 
 /// Localizes the given rows, in that order, `search.threads` at a time. Results do not depend on

@@ -1,5 +1,6 @@
 #include "LocalizeOptions.h"
 
+#include "../common/map_input.h"
 #include <mrpt_polyloc/base/angles.h>
 
 namespace mrpt_polyloc::apps {
@@ -28,6 +29,25 @@ void addPriorOptions(CLI::App& cli, LocalizeOptions& options) {
          "--near", [&options](const std::string& text) { options.prior.near = parseDisk(text); },
          "The robot is within R metres of (X, Y)")
       ->type_name("X,Y,R");
+}
+
+/// --map may be given several times.
+void addMaps(CLI::App& cli, LocalizeOptions& options) {
+  cli.remove_option(cli.get_option("--map"));
+  cli.add_option_function<std::vector<std::string>>(
+         "--map",
+         [&options](const std::vector<std::string>& maps) {
+           for (const std::string& map : maps) {
+             if (map.empty()) throw UsageError("--map: the name is empty");
+           }
+           options.maps = maps;
+           options.search.map = maps.front();
+         },
+         std::string(kMapFormats) + "; given several times: in which of them, and where?")
+      ->required()
+      ->allow_extra_args(false)
+      ->take_all()
+      ->type_name("MAP");
 }
 
 void addScanOptions(CLI::App& cli, LocalizeOptions& options) {
@@ -67,6 +87,7 @@ void addOutputOptions(CLI::App& cli, LocalizeOptions& options) {
 
 void addOptions(CLI::App& cli, LocalizeOptions& options) {
   addSearchOptions(cli, options.search);
+  addMaps(cli, options);
   addPriorOptions(cli, options);
   addScanOptions(cli, options);
   addCertifiedOptions(cli, options.search);

@@ -16,6 +16,8 @@ namespace mrpt_polyloc::apps {
 struct LocalizeOptions {
   SearchOptions search;
   SetOptions sets;
+  /// As given, one or several (floors, buildings); search.map is the first.
+  std::vector<std::string> maps;
   PosePrior prior;
   double compass_tolerance_deg = 10.0;  ///< what a compass indoors is good for
   std::string rows;                     ///< --rows as given, for messages

@@ -14,6 +14,14 @@ double rounded(double value, double decimals) {
   return std::round(value / unit) * unit + 0.0;
 }
 
+/// A text as a field of CSV (RFC 4180).
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
+  return field + "\"";
+}
+
 std::string poseColumns(const Hypothesis& hypothesis) {
   const auto& pose = hypothesis.pose_map_robot;
   const auto deviation = [&](int i) { return std::sqrt(hypothesis.covariance(i, i)); };
@@ -26,10 +34,11 @@ std::string poseColumns(const Hypothesis& hypothesis) {
 
 }  // namespace
 
-std::string hypothesisCsv(const std::vector<LocalizedScan>& scans) {
+std::string hypothesisCsv(const std::vector<LocalizedScan>& scans, bool with_maps) {
   std::string csv =
       "row,stamp,status,rank,x,y,phi_deg,weight,cost,std_x,std_y,std_phi_deg,ms,match,"
-      "listed,cov_xy\n";
+      "listed,cov_xy";
+  csv += with_maps ? ",map\n" : "\n";
   for (const LocalizedScan& scan : scans) {
     char stamp[40];
     std::snprintf(stamp, sizeof stamp, "%.6f", scan.stamp);
@@ -39,12 +48,13 @@ std::string hypothesisCsv(const std::vector<LocalizedScan>& scans) {
     char tail[120];
     std::snprintf(tail, sizeof tail, ",%.3f,%.4f,%.6g,", scan.ms, scan.result.match_probability,
                   scan.result.listed);
-    if (hypotheses.empty()) csv += head + "0,,,,,,,," + tail + "\n";
+    if (hypotheses.empty()) csv += head + "0,,,,,,,," + tail + (with_maps ? ",\n" : "\n");
     for (std::size_t i = 0; i < hypotheses.size(); ++i) {
       char covariance[40];
       std::snprintf(covariance, sizeof covariance, "%.4g", hypotheses[i].covariance(0, 1));
-      csv += head + std::to_string(i + 1) + "," + poseColumns(hypotheses[i]) + tail + covariance +
-             "\n";
+      csv += head + std::to_string(i + 1) + "," + poseColumns(hypotheses[i]) + tail + covariance;
+      if (with_maps) csv += "," + quoted(scan.maps[i]);
+      csv += "\n";
     }
   }
   return csv;

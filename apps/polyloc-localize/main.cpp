@@ -39,7 +39,32 @@ std::string iniText(const LocalizeOptions& options, const std::vector<LocalizedS
   throw FormatError(options.pf_ini, "", "not written: no scan could be localized");
 }
 
+/// Rows of one log in several maps.
+int localizeInMaps(const Program& program, const LocalizeOptions& options) {
+  if (!options.svg.empty() || !options.pf_ini.empty() || !options.search.index.empty() ||
+      options.explain) {
+    throw UsageError("--svg, --pf-ini, --index and --explain are of one map");
+  }
+  requireWritable(options.output);
+  std::vector<PolygonMap> maps;
+  for (const std::string& map : options.maps) {
+    maps.push_back(loadMapWithWarnings(program, map, options.search.scale).map);
+  }
+  const DriveLog drive = loadSearchedDrive(program, options.search, options.sets);
+  const std::vector<std::size_t> rows = chosenRows(options, drive.moments.size());
+  const MultiMapSearch search = makeMultiMapSearch(std::move(maps), options.search);
+  const std::string csv = hypothesisCsv(
+      localizeDrive(search, options.maps, drive, options.sets, rows, options.prior, options.search),
+      true);
+  OutputFiles files;
+  if (!options.output.empty()) files.add(options.output, csv);
+  files.commit();
+  if (options.output.empty()) std::cout << csv;
+  return kDone;
+}
+
 int localize(const Program& program, const LocalizeOptions& options) {
+  if (options.maps.size() > 1) return localizeInMaps(program, options);
   if (options.explain) {
     if (options.search.method == "exact") {
       throw UsageError("--explain is of scans of a log: it does not go with --method exact");

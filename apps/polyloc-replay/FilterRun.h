@@ -14,7 +14,7 @@
 
 namespace mrpt_polyloc::replay {
 
-/// What the filter said after a step, and what that took.
+/// What the filter, or the tracker, said after a step, and what that took.
 struct StepRecord {
   std::size_t step = 0;                      ///< number of the scan in the log
   double stamp = 0.0;                        ///< [s]
@@ -24,13 +24,15 @@ struct StepRecord {
   std::optional<double> fit;                 ///< see filterFit(); none if it was not judged
   std::optional<FilterHealth> health;        ///< none without recovery
   std::optional<LocalizationStatus> search;  ///< if a search was made at this step
-  std::optional<double> best_fit;            ///< of the best hypothesis, see FilterRecovery
-  bool mixed_in = false;                     ///< whether hypotheses were mixed in
-  std::size_t hypotheses = 0;                ///< that it found
-  double filter_cpu_ms = 0.0;  ///< the same in CPU time, which other programs do not change
-  double filter_ms = 0.0;      ///< MRPT's filter [wall ms]
-  double search_ms = 0.0;      ///< search, if there was one
-  double monitor_ms = 0.0;     ///< judging the fit, and mixing in
+  /// Of the tracker after this step; none with particles.
+  std::optional<LocalizationStatus> tracking;
+  std::optional<double> best_fit;  ///< of the best hypothesis, see FilterRecovery
+  bool mixed_in = false;           ///< whether hypotheses were mixed in
+  std::size_t hypotheses = 0;      ///< that it found
+  double filter_cpu_ms = 0.0;      ///< the same in CPU time, which other programs do not change
+  double filter_ms = 0.0;          ///< MRPT's filter [wall ms]
+  double search_ms = 0.0;          ///< search, if there was one
+  double monitor_ms = 0.0;         ///< judging the fit, and mixing in
   std::vector<mrpt::math::TPose2D> cloud;  ///< the particles, at steps to be reported
 };
 

@@ -245,13 +245,15 @@ void readPolyloc(ReplayConfig& config) {
 }  // namespace
 
 const char* toString(Init init) {
+  if (init == Init::tracker) return "tracker";
   return init == Init::polyloc ? "polyloc" : "uniform";
 }
 
 Init parseInit(const std::string& text) {
   if (text == "polyloc") return Init::polyloc;
   if (text == "uniform") return Init::uniform;
-  throw InvalidParamsError("init is '" + text + "', not 'polyloc' or 'uniform'");
+  if (text == "tracker") return Init::tracker;
+  throw InvalidParamsError("init is '" + text + "', not 'polyloc', 'uniform' or 'tracker'");
 }
 
 ReplayConfig loadReplayConfig(const std::string& path) {

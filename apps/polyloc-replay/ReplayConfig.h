@@ -18,10 +18,11 @@ namespace mrpt_polyloc::replay {
 /// How the particles start.
 enum class Init {
   polyloc,  ///< from a search for the first scan
-  uniform   ///< anywhere in the free space
+  uniform,  ///< anywhere in the free space
+  tracker   ///< there are none: HypothesisTracker follows what the search finds
 };
 
-/// "polyloc" or "uniform".
+/// "polyloc", "uniform" or "tracker".
 const char* toString(Init init);
 /// \throws InvalidParamsError for another text
 Init parseInit(const std::string& text);

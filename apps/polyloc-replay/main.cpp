@@ -6,6 +6,7 @@
 #include "../common/scan_input.h"
 #include "FilterRun.h"
 #include "ReplayConfig.h"
+#include "TrackerRun.h"
 #include "replay_maps.h"
 #include "replay_report.h"
 #include "replay_scene.h"
@@ -46,10 +47,18 @@ void addOptions(CLI::App& cli, Options& options) {
   addText(cli, "--rawlog", options.rawlog, "The rawlog [default: rawlog_file of the ini]")
       ->type_name("FILE");
   addReadingOptions(cli, options.scans);
-  addText(cli, "--init", options.init, "How the particles start: polyloc [default] or uniform")
+  addText(
+      cli, "--sensor", options.scans.sensor_label,
+      "The laser that is searched for and judged; of several the tracker takes all that a frame "
+      "holds [default: sensor of the ini]")
+      ->type_name("LABEL[,LABEL...]|all");
+  addText(cli, "--init", options.init,
+          "How the particles start: polyloc [default] or uniform; or tracker: hypotheses are "
+          "followed instead of particles")
       ->type_name("NAME")
       ->check([](const std::string& text) {
-        return text == "polyloc" || text == "uniform" ? "" : "neither polyloc nor uniform";
+        const bool is_known = text == "polyloc" || text == "uniform" || text == "tracker";
+        return is_known ? "" : "neither polyloc nor uniform nor tracker";
       });
   addText(cli, "--truth", options.truth,
           "True poses: TUM lines, or MRPT's index x y phi [default: ground_truth_path_file]")
@@ -86,10 +95,11 @@ ReplayConfig loadConfig(const Program& program, const Options& options) {
   if (readings.max_range) config.scans.readings.max_range = readings.max_range;
   if (readings.min_range) config.scans.readings.min_range = readings.min_range;
   config.scans.strict = options.scans.strict;
+  if (!options.scans.sensor_label.empty()) config.scans.sensor_label = options.scans.sensor_label;
   if (!options.truth.empty()) config.truth_file = options.truth;
   if (!options.init.empty()) config.init = parseInit(options.init);
   if (options.repetitions > 0) config.repetitions = options.repetitions;
-  if (config.init == Init::uniform) config.recovers = false;
+  if (config.init != Init::polyloc) config.recovers = false;
   if (config.rawlog_file.empty()) {
     throw FormatError(config.path, "[LocalizationExperiment]", "no rawlog_file, and no --rawlog");
   }
@@ -163,7 +173,8 @@ int replayLog(const Program& program, const Options& options) {
     Progress progress("run", config.repetitions);
     for (std::uint32_t i = 0; i < config.repetitions; ++i) {
       const auto kept = i == 0 ? keptSteps(config, replayed) : std::vector<std::size_t>();
-      runs.push_back(runFilter(setup, replayed, seed + i, kept));
+      runs.push_back(config.init == Init::tracker ? runTracker(setup, replayed, seed + i, kept)
+                                                  : runFilter(setup, replayed, seed + i, kept));
       scores.push_back(scoreRun(runs.back(), truth, facts.gaps));
       progress.step();
     }

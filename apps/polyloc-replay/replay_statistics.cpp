@@ -57,6 +57,19 @@ void addGaps(const RunRecord& run, const Truth& truth, const std::vector<std::si
   }
 }
 
+/// Counts the steps at which the tracker was sure.
+void addUnique(const RunRecord& run, const Truth& truth, RunScore& score) {
+  for (std::size_t k = 0; k < run.steps.size(); ++k) {
+    if (run.steps[k].tracking != LocalizationStatus::unique) continue;
+    if (!score.unique_step) score.unique_step = k;
+    ++score.unique_steps;
+    const auto error = errorOf(run.steps[k], truth);
+    if (!error) continue;
+    ++score.unique_judged;
+    score.unique_right += isRight(*error) ? 1 : 0;
+  }
+}
+
 }  // namespace
 
 Truth loadTruthOfSteps(const std::string& path, const std::vector<ReplayStep>& steps) {
@@ -101,6 +114,7 @@ RunScore scoreRun(const RunRecord& run, const Truth& truth, const std::vector<st
     if (step.mixed_in) ++score.mixes;
     particles += static_cast<double>(step.particles);
   }
+  addUnique(run, truth, score);
   if (run.steps.empty()) return score;
   score.search_ms = run.steps.front().search_ms;
   score.first_step_ms = run.steps.front().filter_ms;

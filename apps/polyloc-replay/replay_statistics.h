@@ -43,6 +43,10 @@ struct RunScore {
   double mean_particles = 0.0;
   std::size_t searches = 0;  ///< after the first
   std::size_t mixes = 0;     ///< of these, those whose hypotheses were mixed in
+  /// Of the tracker: the first replayed step at which its status is unique; how many are, and how
+  /// many of those that can be judged are right. None and 0 with particles.
+  std::optional<std::size_t> unique_step;
+  std::size_t unique_steps = 0, unique_judged = 0, unique_right = 0;
   /// For each gap, after how many scans the robot was found: 1 means that the first estimate after
   /// it is right, and all on to the next gap (or the end) are. Null if it was not.
   std::vector<std::optional<std::size_t>> found_after;

@@ -116,6 +116,15 @@ std::string replaySummaryJson(const ReplayFacts& facts, const std::vector<RunRec
   json["median_error_m"] = figure(medianOf(right, [](const auto& s) { return s.error_m; }));
   json["median_error_deg"] =
       figure(medianOf(right, [](const auto& s) { return toDegrees(s.error_rad); }));
+  if (facts.init == "tracker") {
+    const RunScore& first = scores.front();  // nothing is left to chance: all runs are alike
+    json["unique_step"] = orNull(first.unique_step);
+    json["unique_steps"] = first.unique_steps;
+    json["unique_right"] = first.unique_judged == 0
+                               ? Json(nullptr)
+                               : Json(static_cast<double>(first.unique_right) /
+                                      static_cast<double>(first.unique_judged));
+  }
   json["steps"] = facts.steps;
   json["init"] = facts.init;
   json["maps"] = facts.maps;
@@ -163,6 +172,16 @@ std::string replaySummaryText(const ReplayFacts& facts, const std::vector<RunSco
           "\nCPU ms        first step " +
           figure_of("%.2f", [](const auto& s) { return s.first_step_cpu_ms; }) + ", whole filter " +
           figure_of("%.1f", [](const auto& s) { return s.total_cpu_ms; }) + "\n";
+  if (facts.init == "tracker" && scores.front().unique_step) {
+    const RunScore& first = scores.front();
+    text += "unique        from step " + std::to_string(*first.unique_step) + " on first, " +
+            std::to_string(first.unique_steps) + " steps";
+    if (first.unique_judged > 0) {
+      text += ", right " + std::to_string(first.unique_right) + " of " +
+              std::to_string(first.unique_judged);
+    }
+    text += "\n";
+  }
   for (std::size_t g = 0; g < facts.gaps.size(); ++g) {
     const Json gap = gapSummary(g, facts.gaps[g], scores);
     text += "carried to step " + std::to_string(facts.gaps[g]);

@@ -9,6 +9,7 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CRawlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -121,10 +122,10 @@ CActionCollection::Ptr composed(const std::vector<CActionCollection::Ptr>& actio
   return movementOf(increment, replacement ? *replacement : movement->motionModelConfiguration);
 }
 
-/// The scans that belong to the sensor: the first such one of each candidate, null if it has none.
-std::vector<CObservation2DRangeScan::Ptr> chosenScans(const std::string& path,
-                                                      const std::vector<Candidate>& candidates,
-                                                      const std::string& sensor_label) {
+/// The scans that belong to the sensors, of each candidate; of each sensor the first.
+std::vector<std::vector<CObservation2DRangeScan::Ptr>> chosenScans(
+    const std::string& path, const std::vector<Candidate>& candidates,
+    const std::string& sensor_label) {
   std::vector<std::string> labels;
   std::vector<std::pair<std::size_t, CObservation2DRangeScan::Ptr>> scans;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -133,30 +134,47 @@ std::vector<CObservation2DRangeScan::Ptr> chosenScans(const std::string& path,
       scans.emplace_back(i, scan);
     }
   }
-  std::vector<CObservation2DRangeScan::Ptr> chosen(candidates.size());
+  std::vector<std::vector<CObservation2DRangeScan::Ptr>> chosen(candidates.size());
   for (const std::size_t k : selectSensor(path, labels, sensor_label)) {
-    if (!chosen[scans[k].first]) chosen[scans[k].first] = scans[k].second;
+    auto& of_candidate = chosen[scans[k].first];
+    const bool is_new =
+        std::none_of(of_candidate.begin(), of_candidate.end(),
+                     [&](const auto& scan) { return scan->sensorLabel == labels[k]; });
+    if (is_new) of_candidate.push_back(scans[k].second);
   }
   return chosen;
 }
 
 /// Fills in the scans of all steps, and tells their observations what the log knows.
+/// \param lasers of each step
 void convertScans(const std::string& path, const ReadingOptions& options, Notes* notes,
+                  const std::vector<std::vector<CObservation2DRangeScan::Ptr>>& lasers,
                   std::vector<ReplayStep>& steps) {
   std::vector<LoggedScan> logged;
-  for (const ReplayStep& step : steps) {
-    const std::string place = "object " + std::to_string(step.object);
-    try {
-      logged.push_back(toLoggedScan(*step.laser));
-    } catch (const std::invalid_argument& error) {
-      throw FormatError(path, place, error.what());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::string place = "object " + std::to_string(steps[i].object);
+    for (const auto& laser : lasers[i]) {
+      try {
+        logged.push_back(toLoggedScan(*laser));
+      } catch (const std::invalid_argument& error) {
+        throw FormatError(path, place, error.what());
+      }
+      logged.back().place = place;
     }
-    logged.back().place = place;
   }
   const LogSurvey survey(logged, options, notes);
-  for (std::size_t i = 0; i < steps.size(); ++i) applyFacts(survey.of(logged[i]), *steps[i].laser);
+  std::size_t next = 0;
+  for (const auto& of_step : lasers) {
+    for (const auto& laser : of_step) applyFacts(survey.of(logged[next++]), *laser);
+  }
   std::vector<RangeScan> scans = toRangeScans(path, std::move(logged), options, nullptr);
-  for (std::size_t i = 0; i < steps.size(); ++i) steps[i].scan = std::move(scans[i]);
+  next = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    for (std::size_t k = 0; k < lasers[i].size(); ++k) {
+      steps[i].scans.push_back(std::move(scans[next++]));
+    }
+    steps[i].scan = steps[i].scans.front();
+  }
 }
 
 }  // namespace
@@ -180,17 +198,19 @@ std::vector<ReplayStep> loadReplayLog(const std::string& path, const ScanFileOpt
 
   const auto chosen = chosenScans(path, collector.candidates, options.sensor_label);
   std::vector<ReplayStep> steps;
+  std::vector<std::vector<CObservation2DRangeScan::Ptr>> lasers;
   std::vector<CActionCollection::Ptr> pending;
   std::optional<CPose2D> last_odometry;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const Candidate& candidate = collector.candidates[i];
     pending.insert(pending.end(), candidate.actions.begin(), candidate.actions.end());
-    if (!chosen[i]) continue;
+    if (chosen[i].empty()) continue;
     ReplayStep step;
     step.object = candidate.object;
     step.pair = collector.has_actions ? candidate.pair : steps.size();
     step.frame = candidate.frame;
-    step.laser = chosen[i];
+    step.laser = chosen[i].front();
+    lasers.push_back(chosen[i]);
     if (!steps.empty()) {
       const CPose2D driven =
           candidate.odometry && last_odometry ? *candidate.odometry - *last_odometry : CPose2D();
@@ -201,7 +221,7 @@ std::vector<ReplayStep> loadReplayLog(const std::string& path, const ScanFileOpt
     if (candidate.odometry) last_odometry = candidate.odometry;
     steps.push_back(std::move(step));
   }
-  convertScans(path, options.readings, notes, steps);
+  convertScans(path, options.readings, notes, lasers, steps);
   return steps;
 }
 

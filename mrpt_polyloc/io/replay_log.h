@@ -24,6 +24,8 @@ struct ReplayStep {
   mrpt::obs::CSensoryFrame::Ptr frame;            ///< all that is weighed
   mrpt::obs::CObservation2DRangeScan::Ptr laser;  ///< the scan in it that is searched for
   RangeScan scan{std::vector<Beam>{}};            ///< the same scan
+  /// Of all sensors that were asked for in the frame, in its order; the first is `scan`.
+  std::vector<RangeScan> scans;
 };
 
 /// The noise of movements: of odometry readings, which logs of observations do not state.

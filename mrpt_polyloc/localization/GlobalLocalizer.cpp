@@ -48,6 +48,7 @@ void GlobalLocalizerParams::check() const {
   hypotheses.check();
   correlation.check();
   requireInRange("most_searched_scans", static_cast<double>(most_searched_scans), 1.0, 1e3);
+  requireInRange("sure_probability", sure_probability, 0.0, 1.0);
 }
 
 void SearchOptions::check() const {

@@ -25,8 +25,11 @@ struct GlobalLocalizerParams {
   /// Of scan sets: how much scans from nearly the same place count.
   ScanCorrelation correlation;
   /// ... and so many of its scans are searched at most, now first, then the farthest from those
-  /// searched; fewer if the answer is unique before.
+  /// searched ...
   std::size_t most_searched_scans = 4;
+  /// ... but no more once the first answer is right with this probability (its weight times that of
+  /// a match).
+  double sure_probability = 0.95;
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;

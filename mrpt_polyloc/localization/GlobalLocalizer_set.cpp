@@ -115,7 +115,8 @@ LocalizationResult GlobalLocalizer::localize(const ScanSet& set, const PosePrior
       const double left = options.time_budget_ms - 1e3 * watch.seconds();
       is_cut_short = is_cut_short || (left <= 0.0 && !is_first);
       if (is_cut_short) break;
-      of_each.time_budget_ms = left;
+      constexpr double kLeastBudget = 1e-6;  // 0 would be none
+      of_each.time_budget_ms = std::max(left, kLeastBudget);
     }
     of_each.keep_regions = options.keep_regions && is_first;
     const Motion& from_now = set.fromNow(place.moment);
@@ -146,7 +147,10 @@ LocalizationResult GlobalLocalizer::localize(const ScanSet& set, const PosePrior
     result.features = all.features;
     result.hypotheses = all.hypotheses;
     result.listed = all.listed;
-    if (result.status == LocalizationStatus::unique || budget.isSpent()) break;
+    // A search of one scan alone may have left the right place out: only a clear answer is one.
+    const double first_is_right =
+        all.hypotheses.empty() ? 0.0 : all.match_probability * all.hypotheses.front().weight;
+    if (first_is_right >= params_.sure_probability || budget.isSpent()) break;
   }
   is_cut_short = is_cut_short || budget.isSpent();
   if (result.status == LocalizationStatus::unique && is_cut_short) {
