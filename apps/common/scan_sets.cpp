@@ -50,7 +50,8 @@ namespace {
 /// Localizes rows of a drive, so many threads at a time.
 std::vector<LocalizedScan> localizeRows(
     const DriveLog& drive, const SetOptions& sets, const std::vector<std::size_t>& rows,
-    const SearchOptions& search, const std::function<void(const ScanSet&, LocalizedScan&)>& take) {
+    const SearchOptions& search, const std::function<void(const ScanSet&, LocalizedScan&)>& take,
+    const std::function<void(const LocalizedScan&)>& on_done = {}) {
   if (sets.accumulate > 0.0 && !drive.has_odometry) {
     throw FormatError(search.scans, "--accumulate",
                       "the log does not say how the robot moved: there is no odometry in it");
@@ -58,7 +59,8 @@ std::vector<LocalizedScan> localizeRows(
   LastMetresParams last;
   last.length = sets.accumulate;
   std::vector<LocalizedScan> localized(rows.size());
-  Progress progress("scan", rows.size());
+  std::optional<Progress> progress;
+  if (!on_done) progress.emplace("scan", rows.size());
   const auto step = [&](std::size_t i) {
     const ScanSet set = lastMetres(drive.moments, rows[i], last);
     const Stopwatch watch;
@@ -66,7 +68,8 @@ std::vector<LocalizedScan> localizeRows(
     localized[i].row = rows[i];
     localized[i].stamp = set.now().scans.front().stamp();
     localized[i].ms = 1e3 * watch.seconds();
-    progress.step();
+    if (on_done) on_done(localized[i]);
+    if (progress) progress->step();
   };
   if (search.threads > 1) {
     tbb::task_arena arena(static_cast<int>(search.threads));
@@ -82,10 +85,14 @@ std::vector<LocalizedScan> localizeRows(
 std::vector<LocalizedScan> localizeDrive(const ScanLocalizer& localizer, const DriveLog& drive,
                                          const SetOptions& sets,
                                          const std::vector<std::size_t>& rows,
-                                         const PosePrior& prior, const SearchOptions& search) {
-  return localizeRows(drive, sets, rows, search, [&](const ScanSet& set, LocalizedScan& scan) {
-    scan.result = localizer.localize_set(set, prior);
-  });
+                                         const PosePrior& prior, const SearchOptions& search,
+                                         const std::function<void(const LocalizedScan&)>& on_done) {
+  return localizeRows(
+      drive, sets, rows, search,
+      [&](const ScanSet& set, LocalizedScan& scan) {
+        scan.result = localizer.localize_set(set, prior);
+      },
+      on_done);
 }
 
 std::vector<LocalizedScan> localizeDrive(const MultiMapSearch& localize,

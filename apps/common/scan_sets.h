@@ -32,12 +32,13 @@ DriveLog loadSearchedDrive(const Program& program, const SearchOptions& search,
 /// The first scan of each moment: what a row is known by.
 std::vector<RangeScan> firstScans(const DriveLog& drive);
 
-/// localizeScans() for moments, each with what was seen on the last metres before it.
-/// \throws FormatError naming the log if it holds no movements and some are asked for
-std::vector<LocalizedScan> localizeDrive(const ScanLocalizer& localizer, const DriveLog& drive,
-                                         const SetOptions& sets,
-                                         const std::vector<std::size_t>& rows,
-                                         const PosePrior& prior, const SearchOptions& search);
+/// localizeScans() for moments, each with what was seen on the last metres before it. \param
+/// on_done as there \throws FormatError naming the log if it holds no movements and some are asked
+/// for
+std::vector<LocalizedScan> localizeDrive(
+    const ScanLocalizer& localizer, const DriveLog& drive, const SetOptions& sets,
+    const std::vector<std::size_t>& rows, const PosePrior& prior, const SearchOptions& search,
+    const std::function<void(const LocalizedScan&)>& on_done = {});
 
 /// The same over several maps. \param names of the maps, for LocalizedScan::maps
 std::vector<LocalizedScan> localizeDrive(const MultiMapSearch& localize,

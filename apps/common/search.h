@@ -50,7 +50,7 @@ struct ScanLocalizer {
   std::function<LocalizationResult(const RangeScan&, const PosePrior&)> localize;
   std::size_t index_bytes = 0;  ///< memory of what was prepared
   /// The same for scan sets; only of the certified method.
-  std::function<LocalizationResult(const ScanSet&, const PosePrior&)> localize_set;
+  std::function<LocalizationResult(const ScanSet&, const PosePrior&)> localize_set = {};
 };
 
 /// Adds --index, --time-budget and --search-metric, which are usage errors with another method than
@@ -80,7 +80,7 @@ struct LocalizedScan {
   double stamp = 0.0;   ///< [s]
   LocalizationResult result;
   double ms = 0.0;                ///< wall time of this scan
-  std::vector<std::string> maps;  ///< of each hypothesis, where several maps are searched
+  std::vector<std::string> maps = {};  ///< of each hypothesis, where several maps are searched
 };
 
 /// Localizes the given rows, in that order, `search.threads` at a time. Results do not depend on

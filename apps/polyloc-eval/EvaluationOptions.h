@@ -30,8 +30,8 @@ void addEvaluationOptions(CLI::App& cli, EvaluationOptions& options);
 /// What is read before anything is searched.
 struct EvaluationInputs {
   SetOptions sets;
-  std::optional<DriveLog> drive;  ///< where a row may be more than one scan
-  std::vector<RangeScan> scans;  ///< of a drive the first of each moment
+  std::optional<DriveLog> drive;           ///< where a row may be more than one scan
+  std::vector<RangeScan> scans;            ///< of a drive the first of each moment
   std::vector<mrpt::math::TPose2D> truth;  ///< of each scan
   std::optional<std::vector<std::size_t>> good;
 };

@@ -256,18 +256,23 @@ class ListRun {
     progress_.begin(entry.name + " " + method.name, rows.size());
     std::mutex mutex;
     bool is_open = false;
-    localizeScans(localizer, dataset.inputs.scans, rows, {}, options.search,
-                  [&](const LocalizedScan& scan) {
-                    const EvaluatedScan done = evaluated(scan, dataset, judge, options.tolerance);
-                    const std::lock_guard<std::mutex> lock(mutex);
-                    if (!is_open) {
-                      job.cold_start_s = job.index.build_s + 1e-3 * scan.ms;
-                      file.open(job);
-                      is_open = true;
-                    }
-                    file.append(done);
-                    progress_.step();
-                  });
+    const auto on_done = [&](const LocalizedScan& scan) {
+      const EvaluatedScan done = evaluated(scan, dataset, judge, options.tolerance);
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (!is_open) {
+        job.cold_start_s = job.index.build_s + 1e-3 * scan.ms;
+        file.open(job);
+        is_open = true;
+      }
+      file.append(done);
+      progress_.step();
+    };
+    const EvaluationInputs& inputs = dataset.inputs;
+    if (inputs.drive && localizer.localize_set) {
+      localizeDrive(localizer, *inputs.drive, inputs.sets, rows, {}, options.search, on_done);
+    } else {
+      localizeScans(localizer, inputs.scans, rows, {}, options.search, on_done);
+    }
     file.sync();
   }
 

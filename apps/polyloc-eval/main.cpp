@@ -46,9 +46,8 @@ int evaluate(const Program& program, const EvaluationOptions& options, const std
   std::iota(rows.begin(), rows.end(), std::size_t{0});
   std::vector<ScanRecord> records;
   for (const LocalizedScan& scan :
-       inputs.drive
-           ? localizeDrive(localizer, *inputs.drive, inputs.sets, rows, {}, options.search)
-           : localizeScans(localizer, inputs.scans, rows, {}, options.search)) {
+       inputs.drive ? localizeDrive(localizer, *inputs.drive, inputs.sets, rows, {}, options.search)
+                    : localizeScans(localizer, inputs.scans, rows, {}, options.search)) {
     records.push_back(scoreLocalized(scan, inputs.truth[scan.row], options.tolerance));
   }
 

@@ -117,6 +117,21 @@ void SimulatorParams::check() const {
   world.check();
 }
 
+mrpt::obs::CObservation2DRangeScan simulateScan(const ChangedWorld& world,
+                                                const SimulatorParams& params,
+                                                const mrpt::math::TPose2D& pose_map_laser,
+                                                double stamp, Random& noise) {
+  const mrpt::math::TPose2D eye = world.worldPose(pose_map_laser);
+  std::vector<double> ranges;
+  for (const double bearing : bearingsOf(params)) {
+    ranges.push_back(world.range({eye.x, eye.y}, eye.phi + bearing, params.clearance));
+  }
+  occlude(ranges, params, noise);
+  mrpt::obs::CObservation2DRangeScan observation = emptyObservation(params, stamp);
+  fillRanges(observation, ranges, params, noise);
+  return observation;
+}
+
 std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorParams& params,
                                          std::size_t count, std::uint64_t seed) {
   params.check();
@@ -124,7 +139,6 @@ std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorP
   const WallSegments walls(map);
   const ChangedWorld world(map, params.world, seed);
   const FreeSpaceSampler sampler(map);
-  const std::vector<double> bearings = bearingsOf(params);
   Random poses(seed);
   Random noise(seed ^ 0x9e3779b97f4a7c15ULL);  // a stream of its own, see the header
 
@@ -132,16 +146,9 @@ std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorP
   for (std::size_t row = 0; row < count; ++row) {
     const TPoint2D place = drawPlace(sampler, walls, params.clearance, poses);
     const double heading = poses.uniform(-kPi, kPi);
-    const mrpt::math::TPose2D eye = world.worldPose({place.x, place.y, heading});
-    std::vector<double> ranges;
-    for (const double bearing : bearings) {
-      ranges.push_back(world.range({eye.x, eye.y}, eye.phi + bearing, params.clearance));
-    }
-    occlude(ranges, params, noise);
-
+    const mrpt::math::TPose2D pose(place.x, place.y, heading);
     const double stamp = kFirstStamp + static_cast<double>(row);
-    scans.push_back({{stamp, {place.x, place.y, heading}}, emptyObservation(params, stamp)});
-    fillRanges(scans.back().observation, ranges, params, noise);
+    scans.push_back({{stamp, pose}, simulateScan(world, params, pose, stamp, noise)});
   }
   return scans;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/Random.h>
 #include <mrpt_polyloc/evaluation/ChangedWorld.h>
 #include <mrpt_polyloc/evaluation/truth.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
@@ -49,5 +50,11 @@ struct SimulatedScan {
 /// \throws InvalidParamsError; InvalidMapError if no place that keeps the clearance was found.
 std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorParams& params,
                                          std::size_t count, std::uint64_t seed);
+
+/// What the laser sees from a pose of it in the map, the clearance being the robot's.
+mrpt::obs::CObservation2DRangeScan simulateScan(const ChangedWorld& world,
+                                                const SimulatorParams& params,
+                                                const mrpt::math::TPose2D& pose_map_laser,
+                                                double stamp, Random& noise);
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <mrpt_polyloc/localization/scan/Motion.h>
+
+#include <mrpt/math/TPose2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <string>
@@ -12,5 +15,17 @@ namespace mrpt_polyloc {
 /// \throws std::runtime_error naming the file if it cannot be written.
 void writeScansRawlog(const std::string& path,
                       const std::vector<mrpt::obs::CObservation2DRangeScan>& scans);
+
+/// What a robot did and saw at one moment.
+struct RawlogMoment {
+  mrpt::math::TPose2D movement{0, 0, 0};  ///< since the moment before, by its wheels [m, rad]
+  std::vector<mrpt::obs::CObservation2DRangeScan> scans;
+};
+
+/// Writes an MRPT rawlog of pairs of action and sensory frame, as MRPT's filters read it. \param
+/// noise what the actions say of the wheels, as MRPT's Gaussian motion model
+/// \throws as writeScansRawlog()
+void writeDriveRawlog(const std::string& path, const std::vector<RawlogMoment>& moments,
+                      const MotionNoise& noise);
 
 }  // namespace mrpt_polyloc
