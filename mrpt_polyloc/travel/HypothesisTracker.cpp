@@ -19,6 +19,10 @@ using mrpt::math::TPose2D;
 /// must be missed some time.
 constexpr double kLeastGain = 0.05;
 
+/// ... and whether it fits at all so much more: a robot that was carried should be missed within
+/// some ten scans, and a search for nothing costs little.
+constexpr double kLeastDoubtGain = 0.4;
+
 /// Mean over the lasers, by their hits, of the log-odds that a scan was taken where the robot is
 /// believed to be.
 double matchLogOdds(const ScanSet& now, const TPose2D& pose_map_robot, const SetEvidence& evidence,
@@ -42,10 +46,12 @@ double matchLogOdds(const ScanSet& now, const TPose2D& pose_map_robot, const Set
 }  // namespace
 
 void HypothesisTrackerParams::check() const {
+  correlation.check();
   requirePositive("most_standard_errors", most_standard_errors);
   requireInRange("least_weight", least_weight, 0.0, 0.1);
   requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e4);
   requireInRange("lost_per_metre", lost_per_metre, 0.0, 1.0);
+  requireInRange("least_none_probability", least_none_probability, 0.0, 0.5);
   requireInRange("search_probability", search_probability, 0.0, 1.0);
   requireInRange("most_odds", most_odds, 1.0, 1e9);
   requireInRange("unique_probability", unique_probability, 0.5, 1.0);
@@ -87,8 +93,7 @@ const TrackingState& HypothesisTracker::update(const std::vector<RangeScan>& sca
   if (now.hitCount() < localizer_.params().least_hits) return state_;  // it says too little
 
   const bool is_first = state_.status == LocalizationStatus::too_few_beams;
-  const double gain =
-      is_first ? 1.0 : std::max(kLeastGain, localizer_.params().correlation.gain(since_scan_));
+  const double gain = is_first ? 1.0 : std::max(kLeastGain, params_.correlation.gain(since_scan_));
   since_search_ += gain;
   if (is_first) {
     search(now);
@@ -99,7 +104,7 @@ const TrackingState& HypothesisTracker::update(const std::vector<RangeScan>& sca
     for (TrackedHypothesis& hypothesis : state_.hypotheses) hypothesis.weight *= 1.0 - lost;
     if (!state_.hypotheses.empty()) {
       weigh(now, gain);
-      doubt(now, gain);
+      doubt(now, std::max(gain, kLeastDoubtGain));
     }
     constexpr double kBetweenSearches = 0.2;  // independent scans
     if (state_.none_probability >= params_.search_probability &&
@@ -189,8 +194,10 @@ void HypothesisTracker::doubt(const ScanSet& now, double gain) {
   const double none = state_.none_probability * std::exp(-gain * odds);
   const double some = 1.0 - state_.none_probability;
   if (!(some > 0.0)) return;
-  state_.none_probability = none / (none + some);
-  for (TrackedHypothesis& hypothesis : state_.hypotheses) hypothesis.weight /= none + some;
+  const double before = state_.none_probability;
+  state_.none_probability = std::max(none / (none + some), params_.least_none_probability);
+  const double scale = (1.0 - state_.none_probability) / (1.0 - before);
+  for (TrackedHypothesis& hypothesis : state_.hypotheses) hypothesis.weight *= scale;
 }
 
 void HypothesisTracker::mergeNear() {

@@ -16,14 +16,19 @@
 namespace mrpt_polyloc {
 
 struct HypothesisTrackerParams {
+  /// How much of an independent scan each is. Not fitted: a tracker must come to a decision within
+  /// some metres, and where a map is off by the same over metres it may be too sure.
+  ScanCorrelation correlation{0.5, 0.7853981633974483};
   /// A scan speaks for one hypothesis against another by at most so many standard errors: a person
   /// in the view is one wrong scan, not many.
   double most_standard_errors = 3.0;
   double least_weight = 1e-4;       ///< hypotheses that fall below this are hopeless, and dropped
   std::size_t max_hypotheses = 40;  ///< of a search, so many are followed
   /// Probability, for each metre driven, that the robot is carried elsewhere, or that what stands
-  /// in the map moved: what "none of these" never falls below.
+  /// in the map moved.
   double lost_per_metre = 1e-3;
+  /// What "none of these" never falls below: after any time a robot may be carried.
+  double least_none_probability = 1e-3;
   /// From this probability of "none of these" on the tracker searches anew.
   double search_probability = 0.5;
   /// A scan changes the odds of "none of these" by at most this factor, either way.

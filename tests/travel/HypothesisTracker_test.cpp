@@ -142,6 +142,10 @@ TEST_F(Tracker, IsDeterministicAndCopiesGoTheirOwnWay) {
 TEST_F(Tracker, SearchesAnewWhenTheRobotWasCarried) {
   HypothesisTracker tracker(localizer_);
   tracker.update(scanAt(map_, {14, 5, 0.1}, 1));
+  for (std::uint32_t i = 1; i < 4; ++i) {
+    tracker.move(measuredMotion({0.2, 0, 0}));
+    tracker.update(scanAt(map_, TPose2D(14, 5, 0.1) + TPose2D(0.2 * i, 0, 0), i));
+  }
   ASSERT_EQ(tracker.state().status, LocalizationStatus::unique);
   // Carried to the other end; there it drives on.
   bool has_searched = false;
