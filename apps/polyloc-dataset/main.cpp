@@ -25,11 +25,13 @@ struct Options {
 };
 
 void addOptions(CLI::App& cli, Options& options) {
-  addText(cli, "--log", options.log, "The drive: .rawlog or CARMEN .log/.clf")
+  addText(cli, "--log", options.log,
+          "The drive: CARMEN .log/.clf, MRPT .simplemap, or, with --poses, .rawlog")
       ->required()
       ->type_name("FILE");
   addText(cli, "--poses", options.poses,
-          "Where the robot was at each scan [default: the corrected poses of a CARMEN log]")
+          "Where the robot was at each scan [default: the poses of a corrected CARMEN log or a "
+          "simplemap]")
       ->type_name("TRUTH.tum");
   addText(cli, "--sensor", options.file.sensor_label, "Scans of this sensor alone")
       ->type_name("LABEL");

@@ -5,6 +5,14 @@
 #include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/carmen_line.h>
 #include <mrpt_polyloc/io/file_extension.h>
+#include <mrpt_polyloc/io/mrpt_archive.h>
+#include <mrpt_polyloc/io/observation.h>
+#include <mrpt_polyloc/io/sensor_labels.h>
+#include <mrpt_polyloc/io/sensor_survey.h>
+
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CSensoryFrame.h>
 
 #include <cmath>
 #include <cstdio>
@@ -32,6 +40,35 @@ std::vector<TPose2D> carmenPoses(const std::string& path, const std::string& key
   return poses;
 }
 
+/// The laser scans of a simplemap at the mean poses of their keyframes.
+PosedScans simplemapScans(const std::string& path, const ScanFileOptions& options, Notes& notes) {
+  GzInputStream stream(path);
+  const auto map = std::dynamic_pointer_cast<mrpt::maps::CSimpleMap>(readObject(stream, 0));
+  if (!map) throw FormatError(path, "object 0", "is no simplemap");
+  std::vector<LoggedScan> logged;
+  std::vector<std::string> labels;
+  std::vector<TPose2D> poses;
+  // By iterators: get() hands out another type from MRPT 2.11.5 on.
+  for (const auto& keyframe : *map) {
+    const TPose2D pose(keyframe.pose->getMeanVal().asTPose());
+    for (const auto& observation : *keyframe.sf) {
+      const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(observation);
+      if (!scan) continue;
+      logged.push_back(toLoggedScan(*scan));
+      labels.push_back(scan->sensorLabel);
+      poses.push_back(pose);
+    }
+  }
+  PosedScans drive;
+  std::vector<LoggedScan> chosen;
+  for (const std::size_t i : selectSensor(path, labels, options.sensor_label)) {
+    chosen.push_back(logged[i]);
+    drive.poses.push_back(poses[i]);
+  }
+  drive.scans = toRangeScans(path, std::move(chosen), options.readings, &notes);
+  return drive;
+}
+
 void requireDrive(const PosedScans& drive, const std::string& path, double most_jump) {
   double way = 0.0;
   for (std::size_t i = 1; i < drive.poses.size(); ++i) {
@@ -54,14 +91,19 @@ void requireDrive(const PosedScans& drive, const std::string& path, double most_
 
 PosedScans loadPosedScans(const std::string& log, const std::string& poses,
                           const ScanFileOptions& options, double most_jump, Notes& notes) {
+  const std::string extension = contentExtension(log);
   PosedScans drive;
+  if (extension == ".simplemap" && poses.empty()) {
+    drive = simplemapScans(log, options, notes);
+    requireDrive(drive, log, most_jump);
+    return drive;
+  }
   drive.scans = loadScans(log, options, &notes);
   if (!poses.empty()) {
     drive.poses = matchTruth(drive.scans, loadTum(poses), poses);
     requireDrive(drive, poses, most_jump);
     return drive;
   }
-  const std::string extension = contentExtension(log);
   if (extension != ".log" && extension != ".clf") {
     throw FormatError(log, "", "such a log says no corrected poses: --poses TRUTH.tum is needed");
   }

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -48,8 +49,11 @@ class PolylocDataset : public ProgramTest {
   }
 
   Outcome make(const std::string& file, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments = {"--log", file, "-o", path("set"), "--max-range", "20"};
+    std::vector<std::string> arguments = {"--log", file, "-o", path("set")};
     arguments.insert(arguments.end(), more.begin(), more.end());
+    if (std::count(more.begin(), more.end(), "--max-range") == 0) {
+      arguments.insert(arguments.end(), {"--max-range", "20"});
+    }
     return run("polyloc-dataset", arguments);
   }
 };
@@ -143,6 +147,32 @@ TEST_F(PolylocDataset, RefusesWhatIsNoDrive) {
   simulate("sim");
   expectFailure(path("sim/scans.rawlog"), {}, "--poses TRUTH.tum is needed");
   EXPECT_EQ(make(file, {"--block", "0"}).code, 2);
+}
+
+TEST_F(PolylocDataset, TakesTheKeyframesOfASimplemap) {
+  const std::string file = "/usr/share/mrpt/datasets/localization_demo.simplemap.gz";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "mrpt-common is not installed";
+  const Outcome outcome = make(file, {"--max-range", "80", "--max-jump", "100", "--block", "3"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto scans = loadScans(path("set/scans.rawlog"));
+  const auto truth = loadTum(path("set/truth.tum"));
+  ASSERT_GT(scans.size(), 10u);
+  EXPECT_NEAR(scans.front().sensor().x, 0.78, 0.01);  // as all of these sets have it
+  // Hits lie on walls of the map that MRPT makes of the whole simplemap.
+  const WallSegments walls(loadMap(file).map);
+  std::size_t near = 0, all = 0;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const auto eye = scans[i].beamFrameFromRobot(truth[i].pose_map_robot);
+    for (std::size_t k = 0; k < scans[i].beams().size(); k += 20) {
+      const Beam& beam = scans[i].beams()[k];
+      if (beam.kind != BeamKind::hit || beam.range > 8.0) continue;
+      const double direction = eye.phi + beam.bearing;
+      near += walls.distance({eye.x + beam.range * std::cos(direction),
+                              eye.y + beam.range * std::sin(direction)}) < 0.15;
+      ++all;
+    }
+  }
+  EXPECT_GT(near, all * 9 / 10) << all;
 }
 
 TEST_F(PolylocDataset, TakesPosesOfAFile) {
