@@ -1,0 +1,353 @@
+#include <mrpt_polyloc/base/Random.h>
+#include <mrpt_polyloc/base/Stopwatch.h>
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/params_check.h>
+#include <mrpt_polyloc/localization/MapIndexParts.h>
+#include <mrpt_polyloc/travel/TravelPlanner.h>
+#include <mrpt_polyloc/travel/TravelValues.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace mrpt_polyloc {
+namespace {
+
+using mrpt::math::TPose2D;
+
+/// A scan tells little that was taken so near to one before ...
+constexpr double kSamePlace = 0.25;
+/// ... turned by less than this [rad], if the laser does not see all around.
+constexpr double kSameHeading = 25.0 * kDegree;
+/// A robot that gets no farther than this cannot leave its place [m].
+constexpr double kLeastReach = 0.3;
+
+struct Choice {
+  TravelValues::Value value;
+  double distance;  ///< [m]
+};
+
+double lengthOf(const std::vector<TPoint2D>& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return length;
+}
+
+/// One plan in the making.
+class Planning {
+ public:
+  Planning(const TravelSituation& situation, const TravelPlannerParams& params,
+           const ClearanceField& field, const RangePredictor& predictor)
+      : situation_(situation),
+        params_(params),
+        sight_(situation.scans, params.safe.robot_radius),
+        safe_(field, situation.hypotheses, sight_, limited(params.safe, 1.0)),
+        values_(predictor, field, situation.hypotheses,
+                LaserModel::of(situation.scans.front().scan, params.most_beams, params.max_range),
+                params) {
+    for (const PlacedScan& placed : situation.scans) looked_.push_back(placed.pose);
+    looked_.insert(looked_.end(), situation.looked.begin(), situation.looked.end());
+    if (params.strategy == TravelStrategy::majority) {
+      majority_.emplace(field, situation.hypotheses, sight_, limited(params.safe, 0.5));
+    }
+  }
+
+  TravelPlan run() {
+    TravelPlan plan;
+    plan.safe_area =
+        static_cast<double>(safe_.reached().size()) * params_.safe.square * params_.safe.square;
+    if (!values_.hasPairs()) return plan;
+    const bool can_leave = safe_.isStartFree() && safe_.reached().back().distance >= kLeastReach;
+    std::vector<Choice> choices;
+    if (can_leave || !values_.seesAllAround()) choices = coarseChoices();
+    plan.places = choices.size();
+    std::optional<Choice> chosen = choose(choices);
+    if (!chosen && can_leave) chosen = denseChoice(plan.places);
+    if (!chosen) {
+      plan.status = can_leave ? TravelStatus::indistinguishable : TravelStatus::blocked;
+      return plan;
+    }
+    if (params_.strategy == TravelStrategy::greedy) chosen = soonerOnTheWay(*chosen);
+    take(*chosen, plan);
+    return plan;
+  }
+
+  TravelPlan explore() {
+    constexpr double kFarthest = 5.0;  // [m]: what is seen changes within a few metres
+    TravelPlan plan;
+    plan.status = TravelStatus::blocked;
+    if (!safe_.isStartFree() || safe_.reached().back().distance < kLeastReach) return plan;
+    const SafeSet::Place* farthest = &safe_.reached().back();
+    double most = -1.0;
+    for (const SafeSet::Place& place : safe_.reached()) {
+      if (place.distance > std::min(kFarthest, situation_.most_distance)) break;
+      double apart = kFarthest;  // from where it was looked before
+      for (const TPose2D& before : looked_) {
+        apart = std::min(apart, std::hypot(place.point.x - before.x, place.point.y - before.y));
+      }
+      if (apart <= most) continue;
+      most = apart;
+      farthest = &place;
+    }
+    TravelValues::Value value;
+    value.pose = TPose2D(farthest->point.x, farthest->point.y, headingAt(farthest->point));
+    value.falls.assign(situation_.hypotheses.size(), 0.0);
+    take({std::move(value), farthest->distance}, plan);
+    return plan;
+  }
+
+ private:
+  SafeSetParams limited(SafeSetParams safe, double quorum) const {
+    safe.quorum = quorum;
+    safe.reach = std::max(safe.square, std::min(safe.reach, situation_.most_distance));
+    return safe;
+  }
+
+  /// Where ways are planned.
+  const SafeSet& ways() const { return majority_ ? *majority_ : safe_; }
+
+  bool wasLookedFrom(const TPose2D& pose) const {
+    return std::any_of(looked_.begin(), looked_.end(), [&](const TPose2D& before) {
+      return std::hypot(pose.x - before.x, pose.y - before.y) < kSamePlace &&
+             (values_.seesAllAround() || angleBetween(pose.phi, before.phi) < kSameHeading);
+    });
+  }
+
+  /// How the robot would come to a place: along its last step.
+  double headingAt(const TPoint2D& place) const {
+    return place.norm() < 1e-9 ? 0.0 : std::atan2(place.y, place.x);
+  }
+
+  /// Places at which something new may be seen, nearest first, with what they tell.
+  std::vector<Choice> valued(const std::vector<SafeSet::Place>& places) const {
+    std::vector<Choice> choices;
+    for (const SafeSet::Place& place : places) {
+      if (place.distance > situation_.most_distance) continue;
+      if (values_.seesAllAround() && wasLookedFrom({place.point.x, place.point.y, 0.0})) continue;
+      TravelValues::Value value = values_.at(place.point, headingAt(place.point));
+      if (wasLookedFrom(value.pose)) continue;
+      choices.push_back({std::move(value), place.distance});
+    }
+    return choices;
+  }
+
+  std::vector<Choice> coarseChoices() const {
+    double spacing = 4.0 * params_.safe.square;
+    std::vector<SafeSet::Place> places = ways().places(spacing);
+    while (places.size() > params_.most_places) {
+      spacing *= 1.3;
+      places = ways().places(spacing);
+    }
+    return valued(places);
+  }
+
+  std::optional<Choice> choose(const std::vector<Choice>& choices) const {
+    const Choice* best = nullptr;
+    double most = 0.0;
+    for (const Choice& choice : choices) most = std::max(most, choice.value.told);
+    if (most <= 0.0) return std::nullopt;
+    if (params_.strategy == TravelStrategy::random) {
+      Random random(situation_.seed);
+      const auto at = static_cast<std::size_t>(random.unit() * static_cast<double>(choices.size()));
+      return choices[at];
+    }
+    double best_score = 0.0;
+    for (const Choice& choice : choices) {
+      const double score = scoreOf(choice, most);
+      if (score > best_score) {
+        best_score = score;
+        best = &choice;
+      }
+    }
+    return best == nullptr ? std::nullopt : std::optional<Choice>(*best);
+  }
+
+  double scoreOf(const Choice& choice, double most) const {
+    const double nearness = 1.0 / (choice.distance + params_.stop_cost);
+    switch (params_.strategy) {
+      case TravelStrategy::nearest:
+        return choice.value.told > 0.0 ? nearness : 0.0;
+      case TravelStrategy::majority:
+        return choice.value.told >= 0.5 * most ? nearness : 0.0;
+      case TravelStrategy::greedy:
+      case TravelStrategy::random:
+        break;
+    }
+    return choice.value.told * nearness;
+  }
+
+  /// Looks closely, also again from where it was looked before, before nothing is said to differ.
+  std::optional<Choice> denseChoice(std::size_t& looked_at) const {
+    double spacing = params_.dense_spacing;
+    std::vector<SafeSet::Place> places = ways().places(spacing);
+    while (places.size() > params_.most_dense_places) {
+      spacing *= 1.3;
+      places = ways().places(spacing);
+    }
+    looked_at += places.size();
+    for (const bool again : {false, true}) {
+      for (const SafeSet::Place& place : places) {  // nearest first: the first that tells will do
+        if (place.distance > situation_.most_distance) continue;
+        const TPose2D pose(place.point.x, place.point.y, headingAt(place.point));
+        if (values_.seesAllAround() && wasLookedFrom(pose) != again) continue;
+        TravelValues::Value value = values_.at(place.point, pose.phi);
+        if (value.told > 0.0 && wasLookedFrom(value.pose) == again) {
+          return Choice{std::move(value), place.distance};
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// The place on the way from which nearly as much is told.
+  Choice soonerOnTheWay(const Choice& choice) const {
+    constexpr double kNearlyAll = 0.95;
+    constexpr double kStep = 0.25;  // [m]
+    const std::vector<TPoint2D> path = ways().pathTo({choice.value.pose.x, choice.value.pose.y});
+    double along = 0.0;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const double length = (path[i] - path[i - 1]).norm();
+      for (double at = kStep; at < length; at += kStep) {
+        const TPoint2D place = path[i - 1] + (path[i] - path[i - 1]) * (at / length);
+        if (wasLookedFrom({place.x, place.y, choice.value.pose.phi})) continue;
+        TravelValues::Value value = values_.at(TPose2D(place.x, place.y, choice.value.pose.phi));
+        if (value.told >= kNearlyAll * choice.value.told) return {std::move(value), along + at};
+      }
+      along += length;
+    }
+    return choice;
+  }
+
+  void take(const Choice& choice, TravelPlan& plan) const {
+    plan.status = TravelStatus::go;
+    plan.goal = choice.value.pose;
+    plan.value = choice.value.told;
+    plan.falls = choice.value.falls;
+    plan.path = ways().pathTo({plan.goal.x, plan.goal.y});
+    if (plan.path.size() > 1) plan.path.back() = {plan.goal.x, plan.goal.y};
+    plan.distance = lengthOf(plan.path);
+    cutToSight(plan);
+  }
+
+  /// The waypoint: where the path leaves what is in sight, or what all hypotheses call safe.
+  void cutToSight(TravelPlan& plan) const {
+    constexpr double kStep = 0.05;    // [m]
+    constexpr double kInSight = 0.7;  // of the robot's radius: noise must not hide a door
+    plan.way = {plan.path.front()};
+    plan.waypoint = plan.goal;
+    double gone = 0.0;
+    for (std::size_t i = 1; i < plan.path.size(); ++i) {
+      const TPoint2D from = plan.path[i - 1], along = plan.path[i] - from;
+      const double length = along.norm();
+      for (double at = kStep; at < length + kStep; at += kStep) {
+        const TPoint2D here = from + along * std::min(1.0, at / length);
+        const bool may_go = gone + at <= params_.longest_leg && safe_.isReached(here) &&
+                            sight_.seesDisc(here, kInSight * params_.safe.robot_radius);
+        if (may_go) continue;
+        const TPoint2D end = from + along * ((at - kStep) / length);
+        if (gone + at > kStep + 1e-9) plan.way.push_back(end);
+        plan.waypoint = TPose2D(end.x, end.y, std::atan2(along.y, along.x));
+        return;
+      }
+      gone += length;
+      plan.way.push_back(plan.path[i]);
+    }
+  }
+
+  const TravelSituation& situation_;
+  const TravelPlannerParams& params_;
+  Sight sight_;
+  SafeSet safe_;
+  std::optional<SafeSet> majority_;
+  TravelValues values_;
+  std::vector<TPose2D> looked_;
+};
+
+}  // namespace
+
+const char* toString(TravelStatus status) {
+  switch (status) {
+    case TravelStatus::go:
+      return "go";
+    case TravelStatus::decided:
+      return "decided";
+    case TravelStatus::indistinguishable:
+      return "indistinguishable";
+    case TravelStatus::blocked:
+      break;
+  }
+  return "blocked";
+}
+
+const char* toString(TravelStrategy strategy) {
+  switch (strategy) {
+    case TravelStrategy::greedy:
+      return "greedy";
+    case TravelStrategy::nearest:
+      return "nearest";
+    case TravelStrategy::majority:
+      return "majority";
+    case TravelStrategy::random:
+      break;
+  }
+  return "random";
+}
+
+std::optional<TravelStrategy> travelStrategyFrom(const std::string& name) {
+  for (const TravelStrategy strategy : {TravelStrategy::greedy, TravelStrategy::nearest,
+                                        TravelStrategy::majority, TravelStrategy::random}) {
+    if (name == toString(strategy)) return strategy;
+  }
+  return std::nullopt;
+}
+
+void TravelPlannerParams::check() const {
+  safe.check();
+  readings.check();
+  evidence.check();
+  requireInRange("most_beams", static_cast<double>(most_beams), 1.0, 1e5);
+  requireNotNegative("max_range", max_range);
+  requireInRange("most_places", static_cast<double>(most_places), 1.0, 1e6);
+  requireInRange("most_hypotheses", static_cast<double>(most_hypotheses), 2.0, 1e4);
+  requireInRange("least_weight", least_weight, 0.0, 1.0);
+  requireInRange("least_telling", least_telling, 1e-6, 1.0);
+  requirePositive("stop_cost", stop_cost);
+  requirePositive("longest_leg", longest_leg);
+  requirePositive("dense_spacing", dense_spacing);
+  requireInRange("most_dense_places", static_cast<double>(most_dense_places), 1.0, 1e7);
+}
+
+TravelPlanner::TravelPlanner(MapIndex::Ptr index, TravelPlannerParams params)
+    : index_(index != nullptr ? std::move(index)
+                              : throw InvalidParamsError("TravelPlanner: there is no index")),
+      params_((params.check(), params)),
+      field_(index_->map(), params.safe.robot_radius + params.safe.margin +
+                                params.safe.most_uncertainty + ClearanceField::kSquare) {
+  index_->parts().predictor();
+}
+
+TravelPlan TravelPlanner::plan(const TravelSituation& situation) const {
+  if (situation.scans.empty()) throw InvalidParamsError("TravelSituation: there is no scan");
+  const Stopwatch watch;
+  TravelPlan plan = Planning(situation, params_, field_, index_->parts().predictor()).run();
+  plan.planning_ms = 1e3 * watch.seconds();
+  return plan;
+}
+
+TravelPlan TravelPlanner::explore(const TravelSituation& situation) const {
+  if (situation.scans.empty()) throw InvalidParamsError("TravelSituation: there is no scan");
+  const Stopwatch watch;
+  TravelPlan plan = Planning(situation, params_, field_, index_->parts().predictor()).explore();
+  plan.planning_ms = 1e3 * watch.seconds();
+  return plan;
+}
+
+SafeSet TravelPlanner::safeSet(const TravelSituation& situation) const {
+  const Sight sight(situation.scans, params_.safe.robot_radius);
+  SafeSetParams safe = params_.safe;
+  safe.reach = std::max(safe.square, std::min(safe.reach, situation.most_distance));
+  return SafeSet(field_, situation.hypotheses, sight, safe);
+}
+
+}  // namespace mrpt_polyloc

@@ -1,0 +1,208 @@
+#include "travel_support.h"
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/travel/TravelPlanner.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tests/support/map_factories.h>
+#include <tests/support/random_maps.h>
+
+namespace mrpt_polyloc::test {
+namespace {
+
+using mrpt::math::TPose2D;
+
+/// A corridor of 20 m with a niche at one end: 180 degrees around its middle it is itself but for
+/// that niche.
+PolygonMap corridor(bool with_niche) {
+  if (!with_niche) return mapOf(rectangle(0, 0, 20, 2));
+  return mapOf({{0, 0}, {20, 0}, {20, 2}, {19, 2}, {19, 3}, {17.5, 3}, {17.5, 2}, {0, 2}});
+}
+
+TravelSituation twoEnds(const PolygonMap& map, double x, double max_range = 4.0) {
+  TravelSituation situation;
+  situation.hypotheses = {hypothesisAt(x, 1, 0, 0.5), hypothesisAt(20 - x, 1, kPi, 0.5)};
+  situation.scans = {{castScan(WallSegments(map), {x, 1, 0}, 360, max_range), {0, 0, 0}}};
+  return situation;
+}
+
+TravelPlannerParams with(TravelStrategy strategy) {
+  TravelPlannerParams params;
+  params.strategy = strategy;
+  return params;
+}
+
+MapIndex::Ptr indexOf(const PolygonMap& map) {
+  MapIndexParams params;
+  params.threads = 1;
+  return MapIndex::deferred(map, params);
+}
+
+TEST(TravelPlanner, GoesWhereTheScanDiffers) {
+  const PolygonMap map = corridor(true);
+  const WallSegments walls(map);
+  for (const TravelStrategy strategy :
+       {TravelStrategy::greedy, TravelStrategy::nearest, TravelStrategy::majority}) {
+    SCOPED_TRACE(toString(strategy));
+    const TravelPlanner planner(indexOf(map), with(strategy));
+    const TravelSituation situation = twoEnds(map, 10.5);
+    const TravelPlan plan = planner.plan(situation);
+    ASSERT_EQ(plan.status, TravelStatus::go);
+    // The niche is seen from some 13.5 m on, by the robot or by its rival.
+    EXPECT_GT(plan.distance, 2.0);
+    EXPECT_LT(plan.distance, 6.0);
+    EXPECT_NEAR(plan.value, 1.0, 0.05);
+    ASSERT_EQ(plan.falls.size(), 2u);
+    EXPECT_NEAR(plan.falls[0], 0.5, 0.05);
+    // By rays: what both expect at the goal differs.
+    int different = 0;
+    for (int k = 0; k < 360; ++k) {
+      double ranges[2];
+      for (std::size_t h = 0; h < 2; ++h) {
+        const Hypothesis& hypothesis = situation.hypotheses[h];
+        ranges[h] = std::min(4.0, walls.range(inMap(hypothesis, {plan.goal.x, plan.goal.y}),
+                                              hypothesis.pose_map_robot.phi + k * kDegree));
+      }
+      different += std::abs(ranges[0] - ranges[1]) > 0.2;
+    }
+    EXPECT_GT(different, 3);
+    EXPECT_LE(std::hypot(plan.waypoint.x, plan.waypoint.y), 2.0 + 1e-6) << "a leg";
+    EXPECT_GE(plan.way.size(), 2u);
+  }
+}
+
+TEST(TravelPlanner, RecognizesWhatCannotBeToldApart) {
+  for (const TravelStrategy strategy : {TravelStrategy::greedy, TravelStrategy::nearest,
+                                        TravelStrategy::majority, TravelStrategy::random}) {
+    SCOPED_TRACE(toString(strategy));
+    const TravelPlanner planner(indexOf(corridor(false)), with(strategy));
+    const TravelPlan plan = planner.plan(twoEnds(corridor(false), 6.0));
+    EXPECT_EQ(plan.status, TravelStatus::indistinguishable);
+    EXPECT_GT(plan.safe_area, 15.0) << "all of the corridor was looked at";
+    EXPECT_TRUE(plan.way.empty());
+  }
+}
+
+TEST(TravelPlanner, KeepsToWhatMayBeDriven) {
+  const PolygonMap map = corridor(true);
+  const TravelPlanner planner(indexOf(map), {});
+  TravelSituation situation = twoEnds(map, 10.5);
+  situation.most_distance = 1.5;
+  EXPECT_EQ(planner.plan(situation).status, TravelStatus::indistinguishable) << "within reach";
+}
+
+TEST(TravelPlanner, DoesNotLookTwiceFromOnePlace) {
+  const PolygonMap map = corridor(true);
+  const TravelPlanner planner(indexOf(map), with(TravelStrategy::nearest));
+  TravelSituation situation = twoEnds(map, 10.5);
+  const TravelPlan first = planner.plan(situation);
+  ASSERT_EQ(first.status, TravelStatus::go);
+  situation.looked = {first.goal};
+  const TravelPlan second = planner.plan(situation);
+  ASSERT_EQ(second.status, TravelStatus::go);
+  EXPECT_GT(std::hypot(first.goal.x - second.goal.x, first.goal.y - second.goal.y), 0.2);
+}
+
+TEST(TravelPlanner, DecidesNothingAlone) {
+  const PolygonMap map = corridor(true);
+  const TravelPlanner planner(indexOf(map), {});
+  TravelSituation situation = twoEnds(map, 10.5);
+  situation.hypotheses.pop_back();
+  EXPECT_EQ(planner.plan(situation).status, TravelStatus::decided);
+  situation.hypotheses.clear();
+  EXPECT_EQ(planner.plan(situation).status, TravelStatus::decided);
+  situation.scans.clear();
+  EXPECT_THROW(planner.plan(situation), InvalidParamsError);
+}
+
+TEST(TravelPlanner, ExploresWhereNothingIsKnown) {
+  const PolygonMap map = corridor(true);
+  const TravelPlanner planner(indexOf(map), {});
+  TravelSituation situation = twoEnds(map, 10.5);
+  situation.hypotheses.clear();
+  const TravelPlan plan = planner.explore(situation);
+  ASSERT_EQ(plan.status, TravelStatus::go);
+  EXPECT_GT(plan.distance, 2.0) << "as far as was seen";
+  EXPECT_LT(plan.distance, 4.0);
+  // It was there: now the other way.
+  situation.looked = {plan.goal};
+  const TravelPlan other = planner.explore(situation);
+  ASSERT_EQ(other.status, TravelStatus::go);
+  EXPECT_LT(plan.goal.x * other.goal.x, 0.0);
+}
+
+TEST(TravelPlanner, SaysThatARobotIsBlocked) {
+  const PolygonMap map = corridor(true);
+  TravelPlannerParams wide;
+  wide.safe.robot_radius = 1.1;  // wider than the corridor
+  EXPECT_EQ(TravelPlanner(indexOf(map), wide).plan(twoEnds(map, 10.5)).status,
+            TravelStatus::blocked);
+  // In a wall: the scan hits all around it.
+  TravelSituation walled = twoEnds(map, 10.5);
+  std::vector<Beam> beams;
+  for (int k = 0; k < 360; ++k) beams.push_back({k * kDegree, 0.1, BeamKind::hit});
+  walled.scans = {{RangeScan(beams), {0, 0, 0}}};
+  EXPECT_EQ(TravelPlanner(indexOf(map), {}).plan(walled).status, TravelStatus::blocked);
+}
+
+TEST(TravelPlanner, TurnsALaserThatDoesNotSeeAllAround) {
+  // What differs lies behind the robot: turning is no way at all.
+  const PolygonMap map = corridor(true);
+  TravelSituation situation;
+  situation.hypotheses = {hypothesisAt(15.0, 1, kPi, 0.5), hypothesisAt(5.0, 1, 0, 0.5)};
+  situation.scans = {{castScan(WallSegments(map), {15.0, 1, kPi}, 181, 4.0, kPi), {0, 0, 0}}};
+  const TravelPlan plan = TravelPlanner(indexOf(map), {}).plan(situation);
+  ASSERT_EQ(plan.status, TravelStatus::go);
+  EXPECT_LT(plan.distance, 0.5);
+  EXPECT_GT(std::abs(plan.goal.phi), 1.0);
+}
+
+TEST(TravelPlanner, IsDeterministicAndRandomOnlyBySeed) {
+  const PolygonMap map = corridor(true);
+  const TravelPlanner planner(indexOf(map), with(TravelStrategy::random));
+  TravelSituation situation = twoEnds(map, 12.5, 8.0);
+  const TravelPlan first = planner.plan(situation), again = planner.plan(situation);
+  EXPECT_EQ(first.goal.x, again.goal.x);
+  EXPECT_EQ(first.goal.y, again.goal.y);
+  int others = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    situation.seed = seed;
+    others += planner.plan(situation).goal.x != first.goal.x;
+  }
+  EXPECT_GT(others, 3);
+}
+
+TEST(TravelPlanner, StopsWhereItsSightEnds) {
+  // An L: behind the corner all maps agree, but nothing was seen yet.
+  const PolygonMap map =
+      mapOf({{0, 0}, {10, 0}, {10, 12}, {8, 12}, {8, 9}, {7, 9}, {7, 8}, {8, 8}, {8, 2}, {0, 2}});
+  const PolygonMap mirror = mapOf({{20, 0}, {30, 0}, {30, 12}, {28, 12}, {28, 2}, {20, 2}});
+  const PolygonMap both({map.components()[0], mirror.components()[0]});
+  TravelSituation situation;
+  situation.hypotheses = {hypothesisAt(2, 1, 0, 0.5), hypothesisAt(22, 1, 0, 0.5)};
+  situation.scans = {{castScan(WallSegments(both), {2, 1, 0}, 360, 20.0), {0, 0, 0}}};
+  TravelPlannerParams params;
+  params.longest_leg = 100.0;
+  const TravelPlan plan = TravelPlanner(indexOf(both), params).plan(situation);
+  ASSERT_EQ(plan.status, TravelStatus::go);
+  const Sight sight(situation.scans, 0.25);
+  for (std::size_t i = 1; i < plan.way.size(); ++i) {
+    for (int k = 0; k <= 10; ++k) {
+      EXPECT_TRUE(
+          sight.seesDisc(plan.way[i - 1] + (plan.way[i] - plan.way[i - 1]) * (k / 10.0), 0.15));
+    }
+  }
+}
+
+TEST(TravelPlanner, NamesStrategiesAndBadParameters) {
+  EXPECT_EQ(travelStrategyFrom("nearest"), TravelStrategy::nearest);
+  EXPECT_FALSE(travelStrategyFrom("Nearest"));
+  TravelPlannerParams params;
+  params.stop_cost = 0.0;
+  EXPECT_THROW(TravelPlanner(indexOf(squareMap()), params), InvalidParamsError);
+  EXPECT_THROW(TravelPlanner(nullptr), InvalidParamsError);
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc::test
