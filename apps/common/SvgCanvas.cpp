@@ -82,7 +82,8 @@ std::string styleSheet(double scale) {
          stroke("particle", "#b0189c", 2.4, ";stroke-linecap:round;stroke-opacity:0.5") +
          stroke("truth", "#c2410c", 2.0, ";stroke-linejoin:round" + dash(7, 4)) +
          stroke("rival", "#8e44ad", 1.8, ";stroke-linejoin:round;stroke-linecap:round") +
-         fill("rivaltip", "#8e44ad") +
+         fill("rivaltip", "#8e44ad") + fill("safe", "#c8e6c9", ";fill-opacity:0.75") +
+         stroke("fallen", "#d3222a", 2.4, ";stroke-linecap:round") +
          stroke("best", "#0b3d91", 3.2, ";stroke-linejoin:round;stroke-linecap:round") +
          fill("besttip", "#0b3d91") + "text{font-family:DejaVu Sans,Arial,sans-serif}\n" +
          ".note{font-size:13px;fill:#1b2430}\n" +

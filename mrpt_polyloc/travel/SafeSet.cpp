@@ -16,9 +16,9 @@ enum State : std::int8_t { kUnknown, kSafe, kUnsafe };
 
 /// Beside the start a robot may be as close to things as it is already [m].
 constexpr double kNearby = 1.0;
-/// Hypotheses are off by some centimetres: one that has the robot in a wall by less is taken as
-/// standing free.
-constexpr double kTolerated = 0.6;  // of the robot's radius
+/// Hypotheses and readings are off by some centimetres: what has the robot in a wall by less is
+/// taken as free [m].
+constexpr double kTolerated = 0.05;
 
 /// Standard deviation of the position along its widest direction [m].
 double spreadOf(const Hypothesis& hypothesis) {
@@ -57,11 +57,11 @@ SafeSet::SafeSet(const ClearanceField& field, const std::vector<Hypothesis>& hyp
     const double start = clearanceAt(field, hypothesis.pose_map_robot, {0, 0});
     needed_.push_back(std::min(needed, field.limit()));
     needed_nearby_.push_back(
-        std::min(needed_.back(), std::max(start, kTolerated * params.robot_radius)));
+        std::min(needed_.back(), std::max(start, params.robot_radius - kTolerated)));
   }
   start_hit_ = std::numeric_limits<double>::infinity();
   for (const TPoint2D& hit : sight.hits()) start_hit_ = std::min(start_hit_, hit.norm());
-  is_start_free_ = start_hit_ >= kTolerated * params.robot_radius;
+  is_start_free_ = start_hit_ >= params.robot_radius - kTolerated;
 
   const auto half = static_cast<std::size_t>(std::ceil(params.reach / params.square));
   side_ = 2 * half + 1;

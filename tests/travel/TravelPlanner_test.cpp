@@ -150,11 +150,11 @@ TEST(TravelPlanner, TurnsALaserThatDoesNotSeeAllAround) {
   // What differs lies behind the robot: turning is no way at all.
   const PolygonMap map = corridor(true);
   TravelSituation situation;
-  situation.hypotheses = {hypothesisAt(15.0, 1, kPi, 0.5), hypothesisAt(5.0, 1, 0, 0.5)};
-  situation.scans = {{castScan(WallSegments(map), {15.0, 1, kPi}, 181, 4.0, kPi), {0, 0, 0}}};
+  situation.hypotheses = {hypothesisAt(16.5, 1, kPi, 0.5), hypothesisAt(3.5, 1, 0, 0.5)};
+  situation.scans = {{castScan(WallSegments(map), {16.5, 1, kPi}, 181, 4.0, kPi), {0, 0, 0}}};
   const TravelPlan plan = TravelPlanner(indexOf(map), {}).plan(situation);
   ASSERT_EQ(plan.status, TravelStatus::go);
-  EXPECT_LT(plan.distance, 0.5);
+  EXPECT_LT(plan.distance, 0.3);
   EXPECT_GT(std::abs(plan.goal.phi), 1.0);
 }
 

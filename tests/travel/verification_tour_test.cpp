@@ -29,8 +29,8 @@ Case randomCase(std::size_t places, double density, std::mt19937& random) {
     for (std::size_t b = 0; b < a; ++b) {
       if (unit(random) > density) continue;
       const double length = 0.1 + unit(random);
-      result.graph[a].emplace_back(b, length);
-      result.graph[b].emplace_back(a, length);
+      result.graph[a].emplace_back(static_cast<std::uint32_t>(b), length);
+      result.graph[b].emplace_back(static_cast<std::uint32_t>(a), length);
       result.lengths[a][b] = result.lengths[b][a] = length;
     }
   }
@@ -92,7 +92,9 @@ TEST(VerificationTour, IsTheShortestOfAllOrders) {
       const double expected = bruteForce(c, 0, told, rivals, back);
       const auto found = shortestVerificationTour(c.graph, 0, told, rivals, back);
       EXPECT_EQ(found.has_value(), std::isfinite(expected));
-      if (found && std::isfinite(expected)) EXPECT_NEAR(*found, expected, 1e-9);
+      if (found && std::isfinite(expected)) {
+        EXPECT_NEAR(*found, expected, 1e-9);
+      }
       without += !found;
     }
   }

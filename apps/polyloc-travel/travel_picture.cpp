@@ -1,0 +1,116 @@
+#include "travel_picture.h"
+
+#include "../common/SvgCanvas.h"
+#include "../common/map_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace mrpt_polyloc::apps {
+namespace {
+
+using mrpt::math::TPose2D;
+
+TPoint2D placedAt(const TPose2D& pose, const TPoint2D& place) {
+  const double c = std::cos(pose.phi), s = std::sin(pose.phi);
+  return {pose.x + c * place.x - s * place.y, pose.y + s * place.x + c * place.y};
+}
+
+/// The squares of a safe set as rows of boxes, where the robot truly was.
+void drawSafeSet(SvgCanvas& canvas, const SafeSet& safe, const TPose2D& truth, double square) {
+  std::map<long, std::vector<long>> rows;
+  for (const SafeSet::Place& place : safe.reached()) {
+    rows[std::lround(place.point.y / square)].push_back(std::lround(place.point.x / square));
+  }
+  std::vector<std::vector<TPoint2D>> boxes;
+  for (auto& [row, columns] : rows) {
+    std::sort(columns.begin(), columns.end());
+    for (std::size_t first = 0; first < columns.size();) {
+      std::size_t last = first;
+      while (last + 1 < columns.size() && columns[last + 1] == columns[last] + 1) ++last;
+      const double x0 = (static_cast<double>(columns[first]) - 0.5) * square;
+      const double x1 = (static_cast<double>(columns[last]) + 0.5) * square;
+      const double y0 = (static_cast<double>(row) - 0.5) * square, y1 = y0 + square;
+      boxes.push_back({placedAt(truth, {x0, y0}), placedAt(truth, {x1, y0}),
+                       placedAt(truth, {x1, y1}), placedAt(truth, {x0, y1})});
+      first = last + 1;
+    }
+  }
+  canvas.area(boxes, "safe");
+  canvas.legend(SvgCanvas::Sample::patch, "safe", "safe at the start");
+}
+
+void drawCross(SvgCanvas& canvas, const TPoint2D& at) {
+  const double arm = 7.0 * canvas.metresPerPixel();
+  canvas.lines({{{at.x - arm, at.y - arm}, {at.x + arm, at.y + arm}},
+                {{at.x - arm, at.y + arm}, {at.x + arm, at.y - arm}}},
+               "fallen");
+}
+
+/// Where each hypothesis has the robot, step by step; a cross where it fell.
+void drawHypothesisWays(SvgCanvas& canvas, const TravelRunResult& run) {
+  std::map<std::uint64_t, Polyline> ways;
+  std::map<std::uint64_t, std::size_t> last_step;
+  for (std::size_t step = 0; step < run.steps.size(); ++step) {
+    const TravelStep& at = run.steps[step];
+    for (const TrackedHypothesis& hypothesis : at.hypotheses) {
+      const TPose2D& pose = hypothesis.pose_map_robot;
+      if (std::hypot(pose.x - at.truth.x, pose.y - at.truth.y) < 0.5) continue;  // the robot itself
+      ways[hypothesis.id].push_back({pose.x, pose.y});
+      last_step[hypothesis.id] = step;
+    }
+  }
+  std::vector<Polyline> lines;
+  std::vector<TPoint2D> starts;
+  for (const auto& [id, way] : ways) {
+    lines.push_back(way);
+    starts.push_back(way.front());
+  }
+  canvas.lines(lines, "rival");
+  canvas.dots(starts, 4.0, "rivaltip");
+  bool has_fallen = false;
+  for (const auto& [id, way] : ways) {
+    if (last_step[id] + 1 >= run.steps.size()) continue;
+    has_fallen = true;
+    drawCross(canvas, way.back());
+  }
+  if (!ways.empty()) canvas.legend(SvgCanvas::Sample::line, "rival", "hypothesis");
+  if (has_fallen) canvas.legend(SvgCanvas::Sample::line, "fallen", "where it fell");
+}
+
+}  // namespace
+
+std::string travelPicture(const TravelPlanner& planner, const World& world,
+                          const TravelRunResult& run) {
+  SvgCanvas canvas(world.map().boundingBox());
+  drawMap(canvas, world.map());
+  if (!run.steps.empty()) {
+    const TravelStep& first = run.steps.front();
+    TravelSituation situation;
+    for (const TrackedHypothesis& tracked : first.hypotheses) {
+      Hypothesis hypothesis;
+      hypothesis.pose_map_robot = tracked.pose_map_robot;
+      hypothesis.covariance = tracked.covariance;
+      hypothesis.weight = tracked.weight;
+      situation.hypotheses.push_back(hypothesis);
+    }
+    situation.scans = {{run.first_scan, {0, 0, 0}}};
+    if (run.is_ambiguous_at_start) {
+      drawSafeSet(canvas, planner.safeSet(situation), first.truth, planner.params().safe.square);
+    }
+  }
+  canvas.lines(world.boxes(), "wall");
+  drawHypothesisWays(canvas, run);
+  canvas.lines({run.way}, "path");
+  std::vector<TPoint2D> stops;
+  for (const TravelStep& step : run.steps) stops.push_back({step.truth.x, step.truth.y});
+  canvas.dots(stops, 4.0, "stop");
+  canvas.dots({{run.start.x, run.start.y}}, 8.0, "besttip");
+  canvas.legend(SvgCanvas::Sample::line, "path", "robot, with its scans");
+  canvas.legend(SvgCanvas::Sample::dot, "besttip", "start");
+  return canvas.text();
+}
+
+}  // namespace mrpt_polyloc::apps
