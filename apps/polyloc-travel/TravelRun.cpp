@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace mrpt_polyloc::apps {
@@ -23,11 +24,26 @@ TPose2D seenFrom(const TPose2D& a, const TPose2D& b) {
   return {c * dx + s * dy, -s * dx + c * dy, std::remainder(b.phi - a.phi, kTwoPi)};
 }
 
+bool isNear(const TPose2D& a, const TPose2D& b) {
+  return std::hypot(a.x - b.x, a.y - b.y) < 0.5 && angleBetween(a.phi, b.phi) < 10.0 * kDegree;
+}
+
+/// Enough of a drive that rooms and doors of one floor differ, not so much that it costs seconds.
+LastMetresParams drivenMetres() {
+  LastMetresParams params;
+  params.length = 12.0;
+  params.spacing = 0.8;
+  params.most_moments = 10;
+  params.longest_step = 5.0;
+  return params;
+}
+
 class Run {
  public:
   Run(const TravelPlanner& planner, const GlobalLocalizer& localizer, const World& world,
       const TPose2D& start, const TravelRunParams& params, std::uint64_t seed)
       : planner_(planner),
+        localizer_(localizer),
         world_(world),
         params_(params),
         tracker_(localizer, trackerParams()),
@@ -54,20 +70,20 @@ class Run {
 
   /// Scans, and decides what that means; plans if it goes on.
   bool isOver() {
-    constexpr std::size_t kKept = 3;  // scans: what is beside the robot now, not what was
+    constexpr std::size_t kKept = 25;  // scans: enough for the way back out of a dead end
     scans_.insert(scans_.begin(), {world_.scan(truth_, noise_), odometry_});
     if (scans_.size() > kKept) scans_.pop_back();
-    const TrackingState& state = tracker_.update(scans_.front().scan);
+    const TrackingState& state = follow(scans_.front().scan);
     ++result_.scans;
     looked_.push_back(odometry_);
     if (result_.scans == 1) {
       result_.first_scan = scans_.front().scan;
-      result_.is_ambiguous_at_start = state.status != LocalizationStatus::unique;
+      result_.is_ambiguous_at_start = !is_anchored_ || state.status != LocalizationStatus::unique;
     }
     result_.steps.push_back({truth_, state.hypotheses, {}, result_.travelled});
-    if (state.status == LocalizationStatus::unique) {
-      const bool is_right =
-          isRight(state.hypotheses.front().pose_map_robot, truth_, params_.tolerance);
+    answer_ = conclude(state);
+    if (answer_) {
+      const bool is_right = isRight(*answer_, truth_, params_.tolerance);
       result_.outcome = is_right ? TravelOutcome::localized : TravelOutcome::wrong;
       return true;
     }
@@ -89,6 +105,38 @@ class Run {
     return blocked_ > kMostBlocked;
   }
 
+  /// Lasers of short range see the same in so many places that a search cannot list them all. What
+  /// is concluded among some of them is worth nothing: the tracker starts anew with each scan until
+  /// there is one whose list is whole.
+  const TrackingState& follow(const RangeScan& scan) {
+    constexpr double kWhole = 0.97;
+    if (tracker_.state().status == LocalizationStatus::no_match) is_anchored_ = false;
+    if (!is_anchored_) {
+      SearchOptions options;
+      options.max_hypotheses = trackerParams().max_hypotheses;
+      is_anchored_ = localizer_.localize(scan, {}, options).listed >= kWhole;
+      tracker_.reset();
+    }
+    return tracker_.update(scan);
+  }
+
+  /// The pose that the robot is sure of: the tracker's, if the scans of the last metres, searched
+  /// anew and judged together, have the same answer. If not, the tracker starts anew: it followed
+  /// what was left of a list without the truth.
+  std::optional<TPose2D> conclude(const TrackingState& state) {
+    const ScanSet drive = last_metres_.add({scans_.front().scan}, since_scan_);
+    since_scan_ = Motion();
+    if (!is_anchored_ || state.status != LocalizationStatus::unique) return std::nullopt;
+    const TPose2D& first = state.hypotheses.front().pose_map_robot;
+    if (drive.single() != nullptr) return first;
+    const LocalizationResult all = localizer_.localize(drive);
+    if (!all.hypotheses.empty() && isNear(all.hypotheses.front().pose_map_robot, first)) {
+      return first;
+    }
+    is_anchored_ = false;
+    return std::nullopt;
+  }
+
   TravelPlan makePlan(const TrackingState& state) {
     TravelSituation situation;
     for (const TrackedHypothesis& tracked : state.hypotheses) {
@@ -99,13 +147,18 @@ class Run {
       hypothesis.cost = tracked.cost;
       situation.hypotheses.push_back(hypothesis);
     }
+    // Maps tell where it is free while there are hypotheses to ask; else what was seen before.
+    constexpr std::size_t kRecent = 3;
+    const bool knows_enough = is_anchored_ && state.status == LocalizationStatus::ambiguous;
     for (const PlacedScan& placed : scans_) {
+      if (knows_enough && situation.scans.size() == kRecent) break;
       situation.scans.push_back({placed.scan, seenFrom(odometry_, placed.pose)});
     }
     for (const TPose2D& before : looked_) situation.looked.push_back(seenFrom(odometry_, before));
     situation.most_distance = params_.most_travel - result_.travelled;
+    situation.recent_scans = kRecent;
     situation.seed = seed_ * 1000 + result_.scans;
-    const bool knows_enough = state.status == LocalizationStatus::ambiguous;
+    if (!knows_enough) situation.hypotheses.clear();
     TravelPlan plan = knows_enough ? planner_.plan(situation) : planner_.explore(situation);
     if (plan.status != TravelStatus::decided) return plan;
     return planner_.explore(situation);
@@ -126,6 +179,7 @@ class Run {
     }
     measured = measured + move({0, 0, std::remainder(plan.waypoint.phi - at.phi, kTwoPi)});
     tracker_.move(measured);
+    since_scan_ = measured;
     odometry_ = compose(before, measured.pose_before_after);
   }
 
@@ -161,13 +215,14 @@ class Run {
     const std::vector<TrackedHypothesis>& left = tracker_.state().hypotheses;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     result_.error_m = result_.error_rad = nan;
-    if (left.empty()) return;
-    const TPose2D& first = left.front().pose_map_robot;
+    if (left.empty() && !answer_) return;
+    const TPose2D& first = answer_ ? *answer_ : left.front().pose_map_robot;
     result_.error_m = std::hypot(first.x - truth_.x, first.y - truth_.y);
     result_.error_rad = angleBetween(first.phi, truth_.phi);
   }
 
   const TravelPlanner& planner_;
+  const GlobalLocalizer& localizer_;
   const World& world_;
   const TravelRunParams& params_;
   HypothesisTracker tracker_;
@@ -177,6 +232,10 @@ class Run {
   TPose2D odometry_{0, 0, 0};      ///< as measured, from the start
   std::vector<PlacedScan> scans_;  ///< the last first, placed by odometry
   std::vector<TPose2D> looked_;    ///< by odometry
+  ScanAccumulator last_metres_{drivenMetres()};
+  Motion since_scan_;
+  std::optional<TPose2D> answer_;
+  bool is_anchored_ = false;  ///< the tracker began with a whole list
   int blocked_ = 0;
   TravelRunResult result_;
 };

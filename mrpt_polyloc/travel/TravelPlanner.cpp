@@ -28,6 +28,13 @@ struct Choice {
   double distance;  ///< [m]
 };
 
+std::vector<PlacedScan> recentOf(const TravelSituation& situation) {
+  const std::size_t count = situation.recent_scans > 0
+                                ? std::min(situation.recent_scans, situation.scans.size())
+                                : situation.scans.size();
+  return {situation.scans.begin(), situation.scans.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
 double lengthOf(const std::vector<TPoint2D>& path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
@@ -42,6 +49,7 @@ class Planning {
       : situation_(situation),
         params_(params),
         sight_(situation.scans, params.safe.robot_radius),
+        recent_sight_(recentOf(situation), params.safe.robot_radius),
         safe_(field, situation.hypotheses, sight_, limited(params.safe, 1.0)),
         values_(predictor, field, situation.hypotheses,
                 LaserModel::of(situation.scans.front().scan, params.most_beams, params.max_range),
@@ -74,21 +82,24 @@ class Planning {
   }
 
   TravelPlan explore() {
-    constexpr double kFarthest = 5.0;  // [m]: what is seen changes within a few metres
+    // From a place so far from all where it looked something new is seen; the nearest such place,
+    // or else the farthest from them.
+    constexpr double kNews = 2.0;  // [m]
     TravelPlan plan;
     plan.status = TravelStatus::blocked;
     if (!safe_.isStartFree() || safe_.reached().back().distance < kLeastReach) return plan;
     const SafeSet::Place* farthest = &safe_.reached().back();
     double most = -1.0;
     for (const SafeSet::Place& place : safe_.reached()) {
-      if (place.distance > std::min(kFarthest, situation_.most_distance)) break;
-      double apart = kFarthest;  // from where it was looked before
+      if (place.distance > situation_.most_distance) break;
+      double apart = kNews;
       for (const TPose2D& before : looked_) {
         apart = std::min(apart, std::hypot(place.point.x - before.x, place.point.y - before.y));
       }
       if (apart <= most) continue;
       most = apart;
       farthest = &place;
+      if (most >= kNews) break;
     }
     TravelValues::Value value;
     value.pose = TPose2D(farthest->point.x, farthest->point.y, headingAt(farthest->point));
@@ -243,7 +254,7 @@ class Planning {
       for (double at = kStep; at < length + kStep; at += kStep) {
         const TPoint2D here = from + along * std::min(1.0, at / length);
         const bool may_go = gone + at <= params_.longest_leg && safe_.isReached(here) &&
-                            sight_.seesDisc(here, kInSight * params_.safe.robot_radius);
+                            recent_sight_.seesDisc(here, kInSight * params_.safe.robot_radius);
         if (may_go) continue;
         const TPoint2D end = from + along * ((at - kStep) / length);
         if (gone + at > kStep + 1e-9) plan.way.push_back(end);
@@ -257,7 +268,8 @@ class Planning {
 
   const TravelSituation& situation_;
   const TravelPlannerParams& params_;
-  Sight sight_;
+  Sight sight_;         ///< by which places are safe
+  Sight recent_sight_;  ///< by which the robot drives on
   SafeSet safe_;
   std::optional<SafeSet> majority_;
   TravelValues values_;

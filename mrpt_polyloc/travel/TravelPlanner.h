@@ -18,8 +18,10 @@ struct TravelSituation {
   /// Where it may be now. Who keeps them over a drive is no matter of the planner.
   std::vector<Hypothesis> hypotheses;
   /// What it has seen, the last scan first: of that its laser's model is taken; all tell where it
-  /// is free to drive. At least one.
+  /// is free to go. At least one.
   std::vector<PlacedScan> scans;
+  /// Of the scans the first so many are trusted to be placed well enough to drive by; 0: all.
+  std::size_t recent_scans = 0;
   /// Where it has looked before, whether the scans are kept or not: looking again tells little.
   std::vector<mrpt::math::TPose2D> looked;
   double most_distance = 1e6;  ///< it will not drive farther than this [m]
@@ -44,8 +46,8 @@ class TravelPlanner {
   TravelPlan plan(const TravelSituation& situation) const;
 
   /// Where to go to see something new where there is nothing to compare: no hypothesis, or one that
-  /// is not sure. The farthest safe place that is not near one looked from before; `go` or
-  /// `blocked`.
+  /// is not sure. The nearest safe place that is 2 m from all it looked from, or the farthest from
+  /// them; `go` or `blocked`.
   TravelPlan explore(const TravelSituation& situation) const;
 
   /// The safe set of a situation, as plan() takes it: for pictures.
