@@ -75,13 +75,13 @@ class Run {
     if (scans_.size() > kKept) scans_.pop_back();
     const TrackingState& state = follow(scans_.front().scan);
     ++result_.scans;
+    answer_ = conclude(state);
     looked_.push_back(odometry_);
     if (result_.scans == 1) {
       result_.first_scan = scans_.front().scan;
       result_.is_ambiguous_at_start = !is_anchored_ || state.status != LocalizationStatus::unique;
     }
-    result_.steps.push_back({truth_, state.hypotheses, {}, result_.travelled});
-    answer_ = conclude(state);
+    result_.steps.push_back({truth_, living_, {}, result_.travelled});
     if (answer_) {
       const bool is_right = isRight(*answer_, truth_, params_.tolerance);
       result_.outcome = is_right ? TravelOutcome::localized : TravelOutcome::wrong;
@@ -121,25 +121,35 @@ class Run {
   }
 
   /// The pose that the robot is sure of: the tracker's, if the scans of the last metres, searched
-  /// anew and judged together, have the same answer. If not, the tracker starts anew: it followed
-  /// what was left of a list without the truth.
+  /// anew and judged together, have the same answer. If they have another, the tracker starts anew:
+  /// it followed what was left of a list without the truth. If they have several, those are what
+  /// is to be told apart.
   std::optional<TPose2D> conclude(const TrackingState& state) {
     const ScanSet drive = last_metres_.add({scans_.front().scan}, since_scan_);
     since_scan_ = Motion();
+    living_ = state.hypotheses;
     if (!is_anchored_ || state.status != LocalizationStatus::unique) return std::nullopt;
     const TPose2D& first = state.hypotheses.front().pose_map_robot;
     if (drive.single() != nullptr) return first;
+    constexpr double kLikely = 0.6;
     const LocalizationResult all = localizer_.localize(drive);
-    if (!all.hypotheses.empty() && isNear(all.hypotheses.front().pose_map_robot, first)) {
-      return first;
+    double near = 0.0;
+    for (const Hypothesis& hypothesis : all.hypotheses) {
+      if (isNear(hypothesis.pose_map_robot, first)) near += hypothesis.weight;
     }
-    is_anchored_ = false;
+    if (near >= kLikely) return first;
+    living_.clear();
+    for (const Hypothesis& hypothesis : all.hypotheses) {
+      living_.push_back({next_id_++, hypothesis.pose_map_robot, hypothesis.covariance,
+                         hypothesis.weight, hypothesis.cost});
+    }
+    is_anchored_ = near > 1.0 - kLikely;
     return std::nullopt;
   }
 
   TravelPlan makePlan(const TrackingState& state) {
     TravelSituation situation;
-    for (const TrackedHypothesis& tracked : state.hypotheses) {
+    for (const TrackedHypothesis& tracked : living_) {
       Hypothesis hypothesis;
       hypothesis.pose_map_robot = tracked.pose_map_robot;
       hypothesis.covariance = tracked.covariance;
@@ -149,7 +159,8 @@ class Run {
     }
     // Maps tell where it is free while there are hypotheses to ask; else what was seen before.
     constexpr std::size_t kRecent = 3;
-    const bool knows_enough = is_anchored_ && state.status == LocalizationStatus::ambiguous;
+    const bool knows_enough = is_anchored_ && state.status != LocalizationStatus::no_match &&
+                              state.status != LocalizationStatus::too_few_beams;
     for (const PlacedScan& placed : scans_) {
       if (knows_enough && situation.scans.size() == kRecent) break;
       situation.scans.push_back({placed.scan, seenFrom(odometry_, placed.pose)});
@@ -212,7 +223,7 @@ class Run {
   }
 
   void finish() {
-    const std::vector<TrackedHypothesis>& left = tracker_.state().hypotheses;
+    const std::vector<TrackedHypothesis>& left = living_;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     result_.error_m = result_.error_rad = nan;
     if (left.empty() && !answer_) return;
@@ -235,7 +246,9 @@ class Run {
   ScanAccumulator last_metres_{drivenMetres()};
   Motion since_scan_;
   std::optional<TPose2D> answer_;
-  bool is_anchored_ = false;  ///< the tracker began with a whole list
+  std::vector<TrackedHypothesis> living_;  ///< what is planned for
+  std::uint64_t next_id_ = 1'000'000'000;  ///< apart from the tracker's
+  bool is_anchored_ = false;               ///< the tracker began with a whole list
   int blocked_ = 0;
   TravelRunResult result_;
 };

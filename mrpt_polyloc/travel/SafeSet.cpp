@@ -12,7 +12,10 @@
 namespace mrpt_polyloc {
 namespace {
 
-enum State : std::int8_t { kUnknown, kSafe, kUnsafe };
+enum State : std::int8_t { kUnknown, kRoomy, kTight, kUnsafe };
+
+/// A metre where there is little room counts as so many.
+constexpr float kTightCost = 3.0F;
 
 /// Beside the start a robot may be as close to things as it is already [m].
 constexpr double kNearby = 1.0;
@@ -39,6 +42,7 @@ double clearanceAt(const ClearanceField& field, const mrpt::math::TPose2D& pose_
 void SafeSetParams::check() const {
   requirePositive("robot_radius", robot_radius);
   requireNotNegative("margin", margin);
+  requireNotNegative("comfort", comfort);
   requireNotNegative("deviations", deviations);
   requireNotNegative("most_uncertainty", most_uncertainty);
   requireInRange("square", square, 0.01, 1.0);
@@ -66,7 +70,8 @@ SafeSet::SafeSet(const ClearanceField& field, const std::vector<Hypothesis>& hyp
   const auto half = static_cast<std::size_t>(std::ceil(params.reach / params.square));
   side_ = 2 * half + 1;
   half_ = (static_cast<double>(half) + 0.5) * params.square;
-  squares_.assign(side_ * side_, {std::numeric_limits<float>::infinity(), -1, kUnknown});
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  squares_.assign(side_ * side_, {kFar, kFar, -1, kUnknown, false});
   block(sight);
   if (is_start_free_) spread();
   hypotheses_ = nullptr;
@@ -90,7 +95,7 @@ TPoint2D SafeSet::centre(std::size_t square) const {
 void SafeSet::block(const Sight& sight) {
   const double radius = params_.robot_radius + params_.margin;
   const double nearby = std::min(radius, start_hit_);
-  const auto span = static_cast<int>(radius / params_.square) + 1;
+  const auto span = static_cast<int>((radius + params_.comfort) / params_.square) + 1;
   for (const TPoint2D& hit : sight.hits()) {
     for (int row = -span; row <= span; ++row) {
       for (int column = -span; column <= span; ++column) {
@@ -99,20 +104,24 @@ void SafeSet::block(const Sight& sight) {
         if (square == squares_.size()) continue;
         const TPoint2D at = centre(square);
         const double needed = at.norm() < kNearby ? nearby : radius;
-        if ((at - hit).norm() < needed) squares_[square].state = kUnsafe;
+        const double distance = (at - hit).norm();
+        if (distance < needed) squares_[square].state = kUnsafe;
+        if (distance < radius + params_.comfort) squares_[square].is_near_hit = true;
       }
     }
   }
 }
 
-bool SafeSet::mayBe(const TPoint2D& point) const {
-  const std::vector<double>& needed = point.norm() < kNearby ? needed_nearby_ : needed_;
+bool SafeSet::mayBe(const TPoint2D& point, double room) const {
+  const std::vector<double>& needed =
+      point.norm() < kNearby && room == 0.0 ? needed_nearby_ : needed_;
   double for_it = 0.0, all = 0.0;
   bool is_unanimous = true;
   for (std::size_t i = 0; i < needed.size(); ++i) {
     const Hypothesis& hypothesis = (*hypotheses_)[i];
     all += hypothesis.weight;
-    if (clearanceAt(*field_, hypothesis.pose_map_robot, point) >= needed[i]) {
+    const double least = std::min(needed[i] + room, field_->limit());
+    if (clearanceAt(*field_, hypothesis.pose_map_robot, point) >= least) {
       for_it += hypothesis.weight;
     } else {
       is_unanimous = false;
@@ -122,29 +131,38 @@ bool SafeSet::mayBe(const TPoint2D& point) const {
   if (is_unanimous && !needed.empty()) return true;
   if (params_.quorum < 1.0 && for_it >= params_.quorum * all) return true;
   // Whatever the maps say, what was seen free is.
-  return sight_->seesDisc(point, params_.robot_radius + params_.margin);
+  return sight_->seesDisc(point, params_.robot_radius + params_.margin + room);
 }
 
 bool SafeSet::isSafe(std::size_t square) {
-  std::int8_t& state = squares_[square].state;
-  if (state == kUnknown) state = mayBe(centre(square)) ? kSafe : kUnsafe;
-  return state == kSafe;
+  Square& at = squares_[square];
+  if (at.state == kUnknown) {
+    const TPoint2D point = centre(square);
+    if (!at.is_near_hit && mayBe(point, params_.comfort)) {
+      at.state = kRoomy;
+    } else {
+      at.state = mayBe(point, 0.0) ? kTight : kUnsafe;
+    }
+  }
+  return at.state != kUnsafe;
 }
 
-/// Dijkstra's algorithm over neighbouring squares from where the robot stands.
+/// Dijkstra's algorithm over neighbouring squares from where the robot stands, by cost: ways keep
+/// to the middle where a little longer.
 void SafeSet::spread() {
   using Entry = std::pair<float, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const std::size_t start = index({0, 0});
-  squares_[start].state = kSafe;
-  squares_[start].distance = 0.0F;
+  squares_[start].state = kTight;
+  squares_[start].cost = squares_[start].distance = 0.0F;
   queue.emplace(0.0F, start);
   const auto straight = static_cast<float>(params_.square);
   const auto diagonal = static_cast<float>(params_.square * std::sqrt(2.0));
   while (!queue.empty()) {
-    const auto [distance, square] = queue.top();
+    const auto [cost, square] = queue.top();
     queue.pop();
-    if (distance > squares_[square].distance) continue;
+    if (cost > squares_[square].cost) continue;
+    const float distance = squares_[square].distance;
     reached_.push_back({centre(square), static_cast<double>(distance)});
     const std::size_t column = square % side_, row = square / side_;
     if (column == 0 || row == 0 || column + 1 == side_ || row + 1 == side_) continue;
@@ -153,14 +171,18 @@ void SafeSet::spread() {
         if (dx == 0 && dy == 0) continue;
         const std::size_t next = (row + static_cast<std::size_t>(dy + 1) - 1) * side_ + column +
                                  static_cast<std::size_t>(dx + 1) - 1;
-        const float there = distance + (dx == 0 || dy == 0 ? straight : diagonal);
-        if (there >= squares_[next].distance || static_cast<double>(there) > params_.reach ||
+        const float step = dx == 0 || dy == 0 ? straight : diagonal;
+        Square& there = squares_[next];
+        if (cost + step >= there.cost || static_cast<double>(distance + step) > params_.reach ||
             !isSafe(next)) {
           continue;
         }
-        squares_[next].distance = there;
-        squares_[next].from = static_cast<std::int32_t>(square);
-        queue.emplace(there, next);
+        const float cost_there = cost + (there.state == kRoomy ? step : kTightCost * step);
+        if (cost_there >= there.cost) continue;
+        there.cost = cost_there;
+        there.distance = distance + step;
+        there.from = static_cast<std::int32_t>(square);
+        queue.emplace(cost_there, next);
       }
     }
   }
@@ -184,11 +206,15 @@ bool SafeSet::isReached(const TPoint2D& point) const {
   return square < squares_.size() && std::isfinite(squares_[square].distance);
 }
 
+bool SafeSet::isRoomy(const TPoint2D& point) const {
+  return isReached(point) && squares_[index(point)].state == kRoomy;
+}
+
 bool SafeSet::isStraightSafe(const TPoint2D& a, const TPoint2D& b) const {
   const double length = (b - a).norm();
   const auto steps = static_cast<int>(std::ceil(2.0 * length / params_.square));
   for (int i = 1; i < steps; ++i) {
-    if (!isReached(a + (b - a) * (static_cast<double>(i) / steps))) return false;
+    if (!isRoomy(a + (b - a) * (static_cast<double>(i) / steps))) return false;
   }
   return true;
 }

@@ -15,9 +15,12 @@ struct SafeSetParams {
   /// Kept free beside the robot [m]: what a small robot strays from its way in a metre, and what
   /// ClearanceField rounds.
   double margin = 0.05;
+  /// Where there is so much more room beside the robot it drives freely [m]; ways keep to such
+  /// places where they can, and through doors the robot goes in short legs.
+  double comfort = 0.15;
   /// Added for each hypothesis: so many standard deviations of its position ...
   double deviations = 2.0;
-  double most_uncertainty = 0.15;  ///< ... up to here [m], or no door could be passed
+  double most_uncertainty = 0.06;  ///< ... up to here [m], or no door could be passed
   double square = 0.1;             ///< side of the squares that are moved on [m]
   double reach = 40.0;             ///< nothing farther away along the way is looked at [m]
   /// Share of the hypotheses' weight that must call a place free. 1: all of them, the safe set;
@@ -44,7 +47,7 @@ class SafeSet {
 
   struct Place {
     TPoint2D point;   ///< in the robot's frame [m]
-    double distance;  ///< along squares [m]: up to 8 % more than the shortest way
+    double distance;  ///< along squares [m]: up to 8 % more than that of its way
   };
 
   /// Whether the robot touches nothing where it stands.
@@ -52,9 +55,11 @@ class SafeSet {
 
   /// One place of each block of squares about so wide [m], the nearest of it; by distance.
   std::vector<Place> places(double spacing) const;
-  /// The squares reached, nearest first.
+  /// The squares reached; nearest first, where tight places count as farther.
   const std::vector<Place>& reached() const { return reached_; }
   bool isReached(const TPoint2D& point) const;
+  /// Whether a place is reached, and has room beside it: SafeSetParams::comfort.
+  bool isRoomy(const TPoint2D& point) const;
 
   /// A way from the robot to a place reached: corners, the first at the robot. Straightened where
   /// the straight line is safe. Empty for a place that is not reached.
@@ -62,14 +67,17 @@ class SafeSet {
 
  private:
   struct Square {
-    float distance;
+    float cost;         ///< of the way to it: metres, tight ones counted several times
+    float distance;     ///< [m]
     std::int32_t from;  ///< the square before it on the way
     std::int8_t state;  ///< unknown yet, safe, or not
+    bool is_near_hit;   ///< too near to be roomy
   };
   std::size_t index(const TPoint2D& point) const;  ///< squares_.size(): outside
   TPoint2D centre(std::size_t square) const;
   bool isSafe(std::size_t square);
-  bool mayBe(const TPoint2D& point) const;
+  /// Whether the robot may be there, with so much more room [m].
+  bool mayBe(const TPoint2D& point, double room) const;
   void block(const Sight& sight);
   void spread();
   bool isStraightSafe(const TPoint2D& a, const TPoint2D& b) const;

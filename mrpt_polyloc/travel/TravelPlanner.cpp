@@ -20,6 +20,8 @@ using mrpt::math::TPose2D;
 constexpr double kSamePlace = 0.25;
 /// ... turned by less than this [rad], if the laser does not see all around.
 constexpr double kSameHeading = 25.0 * kDegree;
+/// Exploring is over where the robot has looked from this near to every place [m].
+constexpr double kNewPlace = 1.0;
 /// A robot that gets no farther than this cannot leave its place [m].
 constexpr double kLeastReach = 0.3;
 
@@ -48,6 +50,7 @@ class Planning {
            const ClearanceField& field, const RangePredictor& predictor)
       : situation_(situation),
         params_(params),
+        field_(field),
         sight_(situation.scans, params.safe.robot_radius),
         recent_sight_(recentOf(situation), params.safe.robot_radius),
         safe_(field, situation.hypotheses, sight_, limited(params.safe, 1.0)),
@@ -66,12 +69,18 @@ class Planning {
     plan.safe_area =
         static_cast<double>(safe_.reached().size()) * params_.safe.square * params_.safe.square;
     if (!values_.hasPairs()) return plan;
-    const bool can_leave = safe_.isStartFree() && safe_.reached().back().distance >= kLeastReach;
+    const bool can_leave = safe_.isStartFree() && reach() >= kLeastReach;
     std::vector<Choice> choices;
     if (can_leave || !values_.seesAllAround()) choices = coarseChoices();
     plan.places = choices.size();
     std::optional<Choice> chosen = choose(choices);
     if (!chosen && can_leave) chosen = denseChoice(plan.places);
+    if (!chosen && can_leave && isMoreToSee()) {
+      const std::size_t places = plan.places;
+      plan = explore(kNewPlace);
+      plan.places = places;
+      if (plan.status == TravelStatus::go) return plan;
+    }
     if (!chosen) {
       plan.status = can_leave ? TravelStatus::indistinguishable : TravelStatus::blocked;
       return plan;
@@ -81,17 +90,18 @@ class Planning {
     return plan;
   }
 
-  TravelPlan explore() {
+  /// \param least how far a place must be from all it looked from, to be gone to [m]
+  TravelPlan explore(double least = 0.0) {
     // From a place so far from all where it looked something new is seen; the nearest such place,
     // or else the farthest from them.
     constexpr double kNews = 2.0;  // [m]
     TravelPlan plan;
     plan.status = TravelStatus::blocked;
-    if (!safe_.isStartFree() || safe_.reached().back().distance < kLeastReach) return plan;
+    if (!safe_.isStartFree() || reach() < kLeastReach) return plan;
     const SafeSet::Place* farthest = &safe_.reached().back();
     double most = -1.0;
     for (const SafeSet::Place& place : safe_.reached()) {
-      if (place.distance > situation_.most_distance) break;
+      if (place.distance > situation_.most_distance) continue;
       double apart = kNews;
       for (const TPose2D& before : looked_) {
         apart = std::min(apart, std::hypot(place.point.x - before.x, place.point.y - before.y));
@@ -101,6 +111,7 @@ class Planning {
       farthest = &place;
       if (most >= kNews) break;
     }
+    if (most < least) return plan;
     TravelValues::Value value;
     value.pose = TPose2D(farthest->point.x, farthest->point.y, headingAt(farthest->point));
     value.falls.assign(situation_.hypotheses.size(), 0.0);
@@ -115,8 +126,32 @@ class Planning {
     return safe;
   }
 
+  /// Whether what is told here can change by driving on: not all hypotheses were compared, or their
+  /// common safe set ends where one of them alone could go on. There it is bounded by what was
+  /// seen, or by doubts of some centimetres.
+  bool isMoreToSee() const {
+    if (!values_.comparesAll()) return true;
+    const auto heaviest = std::max_element(
+        situation_.hypotheses.begin(), situation_.hypotheses.end(),
+        [](const Hypothesis& a, const Hypothesis& b) { return a.weight < b.weight; });
+    const std::vector<Hypothesis> alone{*heaviest};
+    const SafeSet its_own(field_, alone, sight_, limited(params_.safe, 1.0));
+    constexpr double kMuchMore = 1.2;
+    return static_cast<double>(its_own.reached().size()) >
+           kMuchMore * static_cast<double>(safe_.reached().size());
+  }
+
   /// Where ways are planned.
   const SafeSet& ways() const { return majority_ ? *majority_ : safe_; }
+
+  /// How far the robot gets [m].
+  double reach() const {
+    double farthest = 0.0;
+    for (const SafeSet::Place& place : safe_.reached()) {
+      farthest = std::max(farthest, place.distance);
+    }
+    return farthest;
+  }
 
   bool wasLookedFrom(const TPose2D& pose) const {
     return std::any_of(looked_.begin(), looked_.end(), [&](const TPose2D& before) {
@@ -253,7 +288,9 @@ class Planning {
       const double length = along.norm();
       for (double at = kStep; at < length + kStep; at += kStep) {
         const TPoint2D here = from + along * std::min(1.0, at / length);
-        const bool may_go = gone + at <= params_.longest_leg && safe_.isReached(here) &&
+        const double longest =
+            safe_.isRoomy(here) ? params_.longest_leg : params_.longest_tight_leg;
+        const bool may_go = gone + at <= longest && safe_.isReached(here) &&
                             recent_sight_.seesDisc(here, kInSight * params_.safe.robot_radius);
         if (may_go) continue;
         const TPoint2D end = from + along * ((at - kStep) / length);
@@ -268,6 +305,7 @@ class Planning {
 
   const TravelSituation& situation_;
   const TravelPlannerParams& params_;
+  const ClearanceField& field_;
   Sight sight_;         ///< by which places are safe
   Sight recent_sight_;  ///< by which the robot drives on
   SafeSet safe_;
@@ -326,6 +364,7 @@ void TravelPlannerParams::check() const {
   requireInRange("least_telling", least_telling, 1e-6, 1.0);
   requirePositive("stop_cost", stop_cost);
   requirePositive("longest_leg", longest_leg);
+  requirePositive("longest_tight_leg", longest_tight_leg);
   requirePositive("dense_spacing", dense_spacing);
   requireInRange("most_dense_places", static_cast<double>(most_dense_places), 1.0, 1e7);
 }
@@ -335,7 +374,8 @@ TravelPlanner::TravelPlanner(MapIndex::Ptr index, TravelPlannerParams params)
                               : throw InvalidParamsError("TravelPlanner: there is no index")),
       params_((params.check(), params)),
       field_(index_->map(), params.safe.robot_radius + params.safe.margin +
-                                params.safe.most_uncertainty + ClearanceField::kSquare) {
+                                params.safe.most_uncertainty + params.safe.comfort +
+                                ClearanceField::kSquare) {
   index_->parts().predictor();
 }
 

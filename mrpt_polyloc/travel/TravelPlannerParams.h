@@ -42,6 +42,9 @@ struct TravelPlannerParams {
   double stop_cost = 0.5;
   /// No stop is farther away than this along the way [m]: hypotheses are held together by scans.
   double longest_leg = 2.0;
+  /// Where there is little room (SafeSetParams::comfort) a leg ends after this [m]: wheels must not
+  /// go astray between two looks by more than the margin.
+  double longest_tight_leg = 0.7;
   /// Before nothing is said to be told apart, places so far apart are looked at [m].
   double dense_spacing = 0.3;
   std::size_t most_dense_places = 4000;

@@ -30,8 +30,10 @@ TravelValues::TravelValues(const RangePredictor& predictor, const ClearanceField
     return hypotheses[a].weight > hypotheses[b].weight;
   });
   for (const std::size_t i : order) {
-    if (compared_.size() == params.most_hypotheses) break;
-    if (hypotheses[i].weight >= params.least_weight * all) compared_.push_back(i);
+    if (hypotheses[i].weight < params.least_weight * all) break;
+    compares_all_ = compared_.size() < params.most_hypotheses;
+    if (!compares_all_) break;
+    compared_.push_back(i);
   }
   for (std::size_t a = 0; a < compared_.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {

@@ -34,6 +34,9 @@ class TravelValues {
   Value at(const TPoint2D& place, double heading) const;
   Value at(const mrpt::math::TPose2D& pose) const;
 
+  /// Whether no hypothesis of some weight is left out of the comparison.
+  bool comparesAll() const { return compares_all_; }
+
   bool seesAllAround() const { return sees_all_around_; }
 
  private:
@@ -44,6 +47,7 @@ class TravelValues {
   PairEvidence evidence_;
   std::vector<std::size_t> compared_;  ///< of the hypotheses
   double all_pairs_ = 0.0;             ///< their products of weights, summed
+  bool compares_all_ = true;
   bool sees_all_around_ = true;
 };
 
