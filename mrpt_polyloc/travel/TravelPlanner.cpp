@@ -92,30 +92,31 @@ class Planning {
 
   /// \param least how far a place must be from all it looked from, to be gone to [m]
   TravelPlan explore(double least = 0.0) {
-    // From a place so far from all where it looked something new is seen; the nearest such place,
-    // or else the farthest from them.
+    // From a place so far from all where it looked something new is seen.
     constexpr double kNews = 2.0;  // [m]
     TravelPlan plan;
     plan.status = TravelStatus::blocked;
     if (!safe_.isStartFree() || reach() < kLeastReach) return plan;
-    const SafeSet::Place* farthest = &safe_.reached().back();
-    double most = -1.0;
-    for (const SafeSet::Place& place : safe_.reached()) {
+    const Sight now({situation_.scans.front()}, params_.safe.robot_radius);
+    SafeSet::Place chosen = safe_.reached().front();
+    double most = -1.0, best = 0.0;
+    for (const SafeSet::Place& place : safe_.places(2.0 * params_.safe.square)) {
       if (place.distance > situation_.most_distance) continue;
       double apart = kNews;
       for (const TPose2D& before : looked_) {
         apart = std::min(apart, std::hypot(place.point.x - before.x, place.point.y - before.y));
       }
-      if (apart <= most) continue;
+      const double effort = effortOf(place, now);
+      if (apart < most || (apart == most && effort >= best)) continue;
       most = apart;
-      farthest = &place;
-      if (most >= kNews) break;
+      best = effort;
+      chosen = place;
     }
     if (most < least) return plan;
     TravelValues::Value value;
-    value.pose = TPose2D(farthest->point.x, farthest->point.y, headingAt(farthest->point));
+    value.pose = TPose2D(chosen.point.x, chosen.point.y, headingAt(chosen.point));
     value.falls.assign(situation_.hypotheses.size(), 0.0);
-    take({std::move(value), farthest->distance}, plan);
+    take({std::move(value), chosen.distance}, plan);
     return plan;
   }
 
@@ -143,6 +144,18 @@ class Planning {
 
   /// Where ways are planned.
   const SafeSet& ways() const { return majority_ ? *majority_ : safe_; }
+
+  /// What speaks against a place to explore [m]. A robot that sees walls follows them, for that is
+  /// where something differs; one that sees none goes straight on until it does.
+  static double effortOf(const SafeSet::Place& place, const Sight& now) {
+    constexpr double kBeside = 1.5;  // [m] from a wall it is seen well by any laser
+    const TPoint2D& at = place.point;
+    if (now.hits().empty()) return 2.0 * std::abs(at.y) - at.x;
+    double nearest = 1e9;
+    for (const TPoint2D& hit : now.hits()) nearest = std::min(nearest, (hit - at).norm());
+    const double turn = std::abs(std::atan2(at.y, at.x));
+    return place.distance + 1.5 * std::max(0.0, nearest - kBeside) + 0.5 * turn;
+  }
 
   /// How far the robot gets [m].
   double reach() const {

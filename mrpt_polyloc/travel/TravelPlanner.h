@@ -46,8 +46,8 @@ class TravelPlanner {
   TravelPlan plan(const TravelSituation& situation) const;
 
   /// Where to go to see something new where there is nothing to compare: no hypothesis, or one that
-  /// is not sure. The nearest safe place that is 2 m from all it looked from, or the farthest from
-  /// them; `go` or `blocked`.
+  /// is not sure. A safe place that is 2 m from all it looked from, or the farthest from them:
+  /// along walls if it sees any, else straight on; `go` or `blocked`.
   TravelPlan explore(const TravelSituation& situation) const;
 
   /// The safe set of a situation, as plan() takes it: for pictures.
