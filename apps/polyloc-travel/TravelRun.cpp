@@ -93,18 +93,6 @@ class Run {
     TravelPlan& plan = result_.steps.back().plan;
     plan = makePlan(state);
     result_.planning_ms.push_back(plan.planning_ms);
-    if (getenv("DBG"))
-      fprintf(stderr,
-              "%zu at %.1f %.1f anch %d st %s n %zu w %.2f none %.2f err %.2f | %s goal %.1f %.1f "
-              "v %.2f wp %.2f area %.0f hits %zu\n",
-              result_.scans, truth_.x, truth_.y, is_anchored_, mrpt_polyloc::toString(state.status),
-              living_.size(), living_.empty() ? 0 : living_[0].weight, state.none_probability,
-              living_.empty() ? -1
-                              : std::hypot(living_[0].pose_map_robot.x - truth_.x,
-                                           living_[0].pose_map_robot.y - truth_.y),
-              mrpt_polyloc::toString(plan.status), plan.goal.x, plan.goal.y, plan.value,
-              std::hypot(plan.waypoint.x, plan.waypoint.y), plan.safe_area,
-              scans_[0].scan.hitCount());
     if (plan.status == TravelStatus::indistinguishable) {
       result_.outcome = TravelOutcome::indistinguishable;
       return true;
@@ -144,15 +132,12 @@ class Run {
     if (!is_anchored_ || state.status != LocalizationStatus::unique) return std::nullopt;
     const TPose2D& first = state.hypotheses.front().pose_map_robot;
     if (drive.single() != nullptr) return first;
-    constexpr double kLikely = 0.6;
+    constexpr double kLikely = 0.8;
     const LocalizationResult all = localizer_.localize(drive);
     double near = 0.0;
     for (const Hypothesis& hypothesis : all.hypotheses) {
       if (isNear(hypothesis.pose_map_robot, first)) near += hypothesis.weight;
     }
-    if (getenv("DBG"))
-      fprintf(stderr, "  confirm near %.2f of %zu match %.2f\n", near, all.hypotheses.size(),
-              all.match_probability);
     if (near >= kLikely) return first;
     living_.clear();
     for (const Hypothesis& hypothesis : all.hypotheses) {

@@ -25,7 +25,7 @@ const char* toString(TravelStatus status);
 struct TravelPlan {
   TravelStatus status = TravelStatus::decided;
   /// Where to stop and scan next, and how to turn there: the goal, or where the way to it leaves
-  /// what is in sight now [m, rad].
+  /// what is in sight now; or the robot's own place, where it is to turn first [m, rad].
   mrpt::math::TPose2D waypoint;
   std::vector<mrpt::math::TPoint2D> way;   ///< corners from the robot to the waypoint [m]
   mrpt::math::TPose2D goal;                ///< the place whose scan is to tell hypotheses apart

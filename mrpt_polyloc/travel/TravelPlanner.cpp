@@ -30,6 +30,12 @@ struct Choice {
   double distance;  ///< [m]
 };
 
+/// So much around the robot is taken as free, or one whose laser does not see all around could
+/// never start: the disc that it takes up when it begins to move.
+double ownRadius(const TravelPlannerParams& params) {
+  return params.safe.robot_radius + params.safe.margin;
+}
+
 std::vector<PlacedScan> recentOf(const TravelSituation& situation) {
   const std::size_t count = situation.recent_scans > 0
                                 ? std::min(situation.recent_scans, situation.scans.size())
@@ -51,8 +57,8 @@ class Planning {
       : situation_(situation),
         params_(params),
         field_(field),
-        sight_(situation.scans, params.safe.robot_radius),
-        recent_sight_(recentOf(situation), params.safe.robot_radius),
+        sight_(situation.scans, ownRadius(params)),
+        recent_sight_(recentOf(situation), ownRadius(params)),
         safe_(field, situation.hypotheses, sight_, limited(params.safe, 1.0)),
         values_(predictor, field, situation.hypotheses,
                 LaserModel::of(situation.scans.front().scan, params.most_beams, params.max_range),
@@ -97,7 +103,7 @@ class Planning {
     TravelPlan plan;
     plan.status = TravelStatus::blocked;
     if (!safe_.isStartFree() || reach() < kLeastReach) return plan;
-    const Sight now({situation_.scans.front()}, params_.safe.robot_radius);
+    const Sight now({situation_.scans.front()}, ownRadius(params_));
     SafeSet::Place chosen = safe_.reached().front();
     double most = -1.0, best = 0.0;
     for (const SafeSet::Place& place : safe_.places(2.0 * params_.safe.square)) {
@@ -295,6 +301,13 @@ class Planning {
     constexpr double kInSight = 0.7;  // of the robot's radius: noise must not hide a door
     plan.way = {plan.path.front()};
     plan.waypoint = plan.goal;
+    if (plan.path.size() > 1 && plan.distance > params_.longest_tight_leg) {
+      const double bearing = headingAt(plan.path[1]);
+      if (std::abs(bearing) > params_.most_turn) {
+        plan.waypoint = TPose2D(0, 0, bearing);
+        return;
+      }
+    }
     double gone = 0.0;
     for (std::size_t i = 1; i < plan.path.size(); ++i) {
       const TPoint2D from = plan.path[i - 1], along = plan.path[i] - from;
@@ -378,6 +391,7 @@ void TravelPlannerParams::check() const {
   requirePositive("stop_cost", stop_cost);
   requirePositive("longest_leg", longest_leg);
   requirePositive("longest_tight_leg", longest_tight_leg);
+  requirePositive("most_turn", most_turn);
   requirePositive("dense_spacing", dense_spacing);
   requireInRange("most_dense_places", static_cast<double>(most_dense_places), 1.0, 1e7);
 }
@@ -409,7 +423,7 @@ TravelPlan TravelPlanner::explore(const TravelSituation& situation) const {
 }
 
 SafeSet TravelPlanner::safeSet(const TravelSituation& situation) const {
-  const Sight sight(situation.scans, params_.safe.robot_radius);
+  const Sight sight(situation.scans, ownRadius(params_));
   SafeSetParams safe = params_.safe;
   safe.reach = std::max(safe.square, std::min(safe.reach, situation.most_distance));
   return SafeSet(field_, situation.hypotheses, sight, safe);

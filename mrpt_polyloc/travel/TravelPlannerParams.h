@@ -45,6 +45,9 @@ struct TravelPlannerParams {
   /// Where there is little room (SafeSetParams::comfort) a leg ends after this [m]: wheels must not
   /// go astray between two looks by more than the margin.
   double longest_tight_leg = 0.7;
+  /// A robot that would turn by more than this [rad] and then drive far turns and looks first:
+  /// wheels lose the heading in turns, and a wrong heading leads into walls.
+  double most_turn = 0.5;
   /// Before nothing is said to be told apart, places so far apart are looked at [m].
   double dense_spacing = 0.3;
   std::size_t most_dense_places = 4000;
