@@ -13,8 +13,9 @@
 namespace mrpt_polyloc {
 
 /// What the map predicts for the beams of one or more poses, in the beams' own order, pose by pose
-/// [m]. `wall[i]`: range to the first wall, infinity where there is none. `open[i]`: range at which
-/// the beam first left free space for unknown space before that wall, else infinity.
+/// [m]. `wall[i]`: range to the first wall, infinity where there is none, or none before the beam
+/// has gone as far as the horizon past where it left free space. `open[i]`: range at which the beam
+/// first left free space for unknown space before a wall, else infinity.
 struct PredictedRanges {
   std::vector<float> wall;
   std::vector<float> open;
@@ -43,8 +44,10 @@ class RangePredictor {
   static constexpr double kSquareSize = 0.5;
 
   /// Keeps no reference to the triangulation. \param threads for the index; 0: all cores
+  /// \param horizon so far past the first open edge a beam meets what the map knows [m]
   explicit RangePredictor(const Triangulation& triangulation, double square_size = kSquareSize,
-                          int threads = 0, BuildProgress* progress = nullptr);
+                          int threads = 0, double horizon = VisibleEdgeIndex::kHorizon,
+                          BuildProgress* progress = nullptr);
 
   /// With lists found before. \throws InvalidMapError unless they may be those of the map
   RangePredictor(const Triangulation& triangulation, VisibleEdgeIndex::Lists lists);
