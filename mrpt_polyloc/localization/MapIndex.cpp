@@ -50,7 +50,9 @@ void MapIndexParts::take(VisibleEdgeIndex::Lists edges, SearchTree::Data data) {
 std::size_t MapIndexParts::bytes() const {
   std::size_t sum = 0;
   if (triangulation_.isMade()) sum += triangulation_.value().bytes();
-  if (predictor_.isMade()) sum += predictor_.value().index().bytes();
+  if (predictor_.isMade()) {
+    sum += predictor_.value().index().bytes() + predictor_.value().wallDistances().bytes();
+  }
   if (tree_.isMade()) sum += tree_.value().bytes();
   return sum;
 }

@@ -84,10 +84,14 @@ struct RangePredictor::Workspace {
 
 RangePredictor::RangePredictor(const Triangulation& triangulation, double square_size, int threads,
                                double horizon, BuildProgress* progress)
-    : box_(triangulation.box()), index_(triangulation, square_size, threads, horizon, progress) {}
+    : box_(triangulation.box()),
+      index_(triangulation, square_size, threads, horizon, progress),
+      wall_distances_(triangulation) {}
 
 RangePredictor::RangePredictor(const Triangulation& triangulation, VisibleEdgeIndex::Lists lists)
-    : box_(triangulation.box()), index_(triangulation, std::move(lists)) {}
+    : box_(triangulation.box()),
+      index_(triangulation, std::move(lists)),
+      wall_distances_(triangulation) {}
 
 /// Raises `wall`, inverse ranges or hits, to what is seen from a pose (nothing outside the
 /// triangulated box), and writes those to the first open edges to `open` unless that is null; it

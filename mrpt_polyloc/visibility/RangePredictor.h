@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/geometry/Triangulation.h>
+#include <mrpt_polyloc/geometry/WallDistances.h>
 #include <mrpt_polyloc/visibility/BeamPattern.h>
 #include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
 
@@ -66,6 +67,7 @@ class RangePredictor {
                PredictedHits& out) const;
 
   const VisibleEdgeIndex& index() const { return index_; }
+  const WallDistances& wallDistances() const { return wall_distances_; }
 
  private:
   struct Workspace;
@@ -78,6 +80,7 @@ class RangePredictor {
 
   BoundingBox box_;
   VisibleEdgeIndex index_;
+  WallDistances wall_distances_;
 };
 
 }  // namespace mrpt_polyloc
