@@ -34,26 +34,6 @@ Triangulation::Triangulation(const PolygonMap& map) {
   buildBuckets();
 }
 
-Triangulation::Triangulation(const std::vector<Polyline>& walls, const BoundingBox& box)
-    : box_(box) {
-  std::tie(vertices_, faces_) = constrainedDelaunay(walls, box_);
-  buildBuckets();
-}
-
-Triangulation Triangulation::wallsAlone() const {
-  std::vector<Polyline> walls;
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      // Each edge from one of its sides; on the rim of the box there are no walls.
-      if (faces_[f].passage[i] != Passage::wall) continue;
-      if (faces_[f].neighbor[i] < static_cast<std::int32_t>(f)) continue;
-      walls.push_back({vertices_[static_cast<std::size_t>(faces_[f].vertex[(i + 1) % 3])],
-                       vertices_[static_cast<std::size_t>(faces_[f].vertex[(i + 2) % 3])]});
-    }
-  }
-  return {walls, box_};
-}
-
 void Triangulation::buildBuckets() {
   const double width = box_.max.x - box_.min.x, height = box_.max.y - box_.min.y;
   const double buckets = std::max(1.0, static_cast<double>(faces_.size()) / kFacesPerBucket);

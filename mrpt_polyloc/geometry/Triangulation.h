@@ -33,10 +33,6 @@ class Triangulation {
 
   explicit Triangulation(const PolygonMap& map);
 
-  /// The same box with only the walls as constraints: fewer faces to pass for what walls alone
-  /// stop. No face of it is free.
-  Triangulation wallsAlone() const;
-
   const std::vector<TPoint2D>& vertices() const { return vertices_; }
   const std::vector<Face>& faces() const { return faces_; }
   /// What edge i of a face is to a beam that leaves the face: open only where it leads out of free
@@ -64,7 +60,6 @@ class Triangulation {
   std::size_t bytes() const;  ///< memory held
 
  private:
-  Triangulation(const std::vector<Polyline>& walls, const BoundingBox& box);
   void buildBuckets();
   int walk(int face, const TPoint2D& point) const;
 

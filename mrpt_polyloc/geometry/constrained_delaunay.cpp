@@ -231,11 +231,4 @@ std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> constrainedDe
   return triangulate(chains, box);
 }
 
-std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> constrainedDelaunay(
-    const std::vector<Polyline>& walls, const BoundingBox& box) {
-  Chains chains;
-  for (const Polyline& wall : walls) chains.addWall(wall);
-  return triangulate(chains, box);
-}
-
 }  // namespace mrpt_polyloc

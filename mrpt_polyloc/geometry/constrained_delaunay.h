@@ -16,8 +16,4 @@ namespace mrpt_polyloc {
 std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> constrainedDelaunay(
     const PolygonMap& map, const BoundingBox& box);
 
-/// The same with walls alone: no face is free.
-std::pair<std::vector<TPoint2D>, std::vector<Triangulation::Face>> constrainedDelaunay(
-    const std::vector<Polyline>& walls, const BoundingBox& box);
-
 }  // namespace mrpt_polyloc

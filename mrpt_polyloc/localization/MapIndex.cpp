@@ -11,6 +11,7 @@ namespace mrpt_polyloc {
 
 void MapIndexParams::check() const {
   requireInRange("leaf_size", leaf_size, 0.01, 10.0);
+  requirePositive("horizon", horizon);
   requireInRange("threads", threads, 0.0, 1024.0);
 }
 
@@ -26,7 +27,7 @@ const Triangulation& MapIndexParts::triangulation() const {
 const RangePredictor& MapIndexParts::predictor(BuildProgress* progress) const {
   return predictor_.get([&] {
     return RangePredictor(triangulation(), kLeavesPerSquare * params.leaf_size, params.threads,
-                          progress);
+                          params.horizon, progress);
   });
 }
 
@@ -41,6 +42,7 @@ void MapIndexParts::take(VisibleEdgeIndex::Lists edges, SearchTree::Data data) {
     throw InvalidMapError("index: its parts are not of one size");
   }
   params.leaf_size = data.leaf_size;
+  params.horizon = edges.horizon;
   predictor_.get([&] { return RangePredictor(triangulation(), std::move(edges)); });
   tree_.get([&] { return SearchTree(std::move(data)); });
 }
@@ -48,7 +50,9 @@ void MapIndexParts::take(VisibleEdgeIndex::Lists edges, SearchTree::Data data) {
 std::size_t MapIndexParts::bytes() const {
   std::size_t sum = 0;
   if (triangulation_.isMade()) sum += triangulation_.value().bytes();
-  if (predictor_.isMade()) sum += predictor_.value().index().bytes();
+  if (predictor_.isMade()) {
+    sum += predictor_.value().index().bytes() + predictor_.value().wallDistances().bytes();
+  }
   if (tree_.isMade()) sum += tree_.value().bytes();
   return sum;
 }

@@ -32,14 +32,14 @@ HalfEdge following(const Triangulation& t, HalfEdge edge, Passage kind) {
 
 }  // namespace
 
-BoundaryChains::BoundaryChains(const Triangulation& triangulation, const Triangulation& walls) {
+BoundaryChains::BoundaryChains(const Triangulation& triangulation) {
   const BoundingBox& box = triangulation.box();
   origin_ = {0.5 * (box.min.x + box.max.x), 0.5 * (box.min.y + box.max.y)};
   const double half = 0.5 * std::max(box.max.x - box.min.x, box.max.y - box.min.y);
   int exponent = 0;
   std::frexp(half, &exponent);             // half < 2^exponent
   unit_ = std::ldexp(1.0, exponent - 30);  // differences stay below 2^31
-  layOut(walls, Passage::wall, wall_numbers_, walls_);
+  layOut(triangulation, Passage::wall, wall_numbers_, walls_);
   layOut(triangulation, Passage::open, open_numbers_, open_);
   x_.resize(x_.size() + kPadding);
   y_.resize(y_.size() + kPadding);

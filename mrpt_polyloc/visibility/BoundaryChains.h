@@ -27,9 +27,7 @@ class BoundaryChains {
     std::uint32_t edges;
   };
 
-  /// \param triangulation for the open edges
-  /// \param walls for the walls: triangulation.wallsAlone()
-  BoundaryChains(const Triangulation& triangulation, const Triangulation& walls);
+  explicit BoundaryChains(const Triangulation& triangulation);
 
   /// Coordinates of the vertices in units of unit().
   const std::int32_t* x() const { return x_.data(); }
@@ -40,12 +38,12 @@ class BoundaryChains {
   std::int32_t fixedX(double x) const { return fixed(x - origin_.x); }
   std::int32_t fixedY(double y) const { return fixed(y - origin_.y); }
 
-  /// The number (that of the first vertex) of edge i of a face of `walls`, as seen from that face,
-  /// if it is a wall; else kNone.
+  /// The number (that of the first vertex) of edge i of a face, as seen from that face, if it is a
+  /// wall; else kNone.
   std::uint32_t wallNumber(std::size_t face, std::size_t i) const {
     return wall_numbers_[3 * face + i];
   }
-  /// The same for a face of `triangulation` and an open edge that leads out of free space.
+  /// The same for an open edge that leads out of free space.
   std::uint32_t openNumber(std::size_t face, std::size_t i) const {
     return open_numbers_[3 * face + i];
   }

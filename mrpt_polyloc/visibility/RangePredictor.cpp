@@ -65,6 +65,15 @@ void takeOpenRanges(const BeamPattern& beams, const float* __restrict__ to_wall,
   }
 }
 
+/// Walls beyond the horizon are not known.
+POLYLOC_HOT_LOOP
+void endAtHorizon(std::size_t n, float horizon, const float* __restrict__ open,
+                  float* __restrict__ wall) {
+  for (std::size_t i = 0; i < n; ++i) {
+    wall[i] = wall[i] > open[i] + horizon ? kInfinity : wall[i];
+  }
+}
+
 }  // namespace
 
 struct RangePredictor::Workspace {
@@ -74,11 +83,15 @@ struct RangePredictor::Workspace {
 };
 
 RangePredictor::RangePredictor(const Triangulation& triangulation, double square_size, int threads,
-                               BuildProgress* progress)
-    : box_(triangulation.box()), index_(triangulation, square_size, threads, progress) {}
+                               double horizon, BuildProgress* progress)
+    : box_(triangulation.box()),
+      index_(triangulation, square_size, threads, horizon, progress),
+      wall_distances_(triangulation) {}
 
 RangePredictor::RangePredictor(const Triangulation& triangulation, VisibleEdgeIndex::Lists lists)
-    : box_(triangulation.box()), index_(triangulation, std::move(lists)) {}
+    : box_(triangulation.box()),
+      index_(triangulation, std::move(lists)),
+      wall_distances_(triangulation) {}
 
 /// Raises `wall`, inverse ranges or hits, to what is seen from a pose (nothing outside the
 /// triangulated box), and writes those to the first open edges to `open` unless that is null; it
@@ -109,6 +122,9 @@ void RangePredictor::predict(const mrpt::math::TPose2D& pose, std::int64_t squar
   look(pose, square, beams, w, w.wall, &w.open);
   takeWallRanges(beams, w.wall.data(), wall);
   takeOpenRanges(beams, w.wall.data(), w.open.data(), open);
+  if (w.open.data() != nullptr) {
+    endAtHorizon(beams.size(), static_cast<float>(index_.horizon()), open, wall);
+  }
 }
 
 void RangePredictor::predict(const mrpt::math::TPose2D& pose_map_beams, const BeamPattern& beams,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/geometry/Triangulation.h>
+#include <mrpt_polyloc/geometry/WallDistances.h>
 #include <mrpt_polyloc/visibility/BeamPattern.h>
 #include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
 
@@ -13,8 +14,9 @@
 namespace mrpt_polyloc {
 
 /// What the map predicts for the beams of one or more poses, in the beams' own order, pose by pose
-/// [m]. `wall[i]`: range to the first wall, infinity where there is none. `open[i]`: range at which
-/// the beam first left free space for unknown space before that wall, else infinity.
+/// [m]. `wall[i]`: range to the first wall, infinity where there is none, or none before the beam
+/// has gone as far as the horizon past where it left free space. `open[i]`: range at which the beam
+/// first left free space for unknown space before a wall, else infinity.
 struct PredictedRanges {
   std::vector<float> wall;
   std::vector<float> open;
@@ -43,8 +45,10 @@ class RangePredictor {
   static constexpr double kSquareSize = 0.5;
 
   /// Keeps no reference to the triangulation. \param threads for the index; 0: all cores
+  /// \param horizon so far past the first open edge a beam meets what the map knows [m]
   explicit RangePredictor(const Triangulation& triangulation, double square_size = kSquareSize,
-                          int threads = 0, BuildProgress* progress = nullptr);
+                          int threads = 0, double horizon = VisibleEdgeIndex::kHorizon,
+                          BuildProgress* progress = nullptr);
 
   /// With lists found before. \throws InvalidMapError unless they may be those of the map
   RangePredictor(const Triangulation& triangulation, VisibleEdgeIndex::Lists lists);
@@ -63,6 +67,7 @@ class RangePredictor {
                PredictedHits& out) const;
 
   const VisibleEdgeIndex& index() const { return index_; }
+  const WallDistances& wallDistances() const { return wall_distances_; }
 
  private:
   struct Workspace;
@@ -75,6 +80,7 @@ class RangePredictor {
 
   BoundingBox box_;
   VisibleEdgeIndex index_;
+  WallDistances wall_distances_;
 };
 
 }  // namespace mrpt_polyloc

@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace mrpt_polyloc {
 namespace {
 
 /// A cone that keeps growing is opened to the whole edge: bounds the work.
 constexpr std::int32_t kMostWidenings = 6;
+
+constexpr double kSqrt2 = 1.4142135623730951;
+constexpr float kFar = std::numeric_limits<float>::infinity();
 
 /// The 1-norm of b - a.
 double extent(const TPoint2D& a, const TPoint2D& b) {
@@ -18,12 +22,12 @@ double extent(const TPoint2D& a, const TPoint2D& b) {
 
 }  // namespace
 
-SquareExpander::SquareExpander(const Triangulation& t)
-    : t_(&t), origin_(t.vertices().front()), passed_(3 * t.faces().size()) {
+SquareExpander::SquareExpander(const Triangulation& t, double horizon)
+    : t_(&t), horizon_(horizon), origin_(t.vertices().front()), passed_(3 * t.faces().size()) {
   nodes_.reserve(t.faces().size());
   for (std::size_t face = 0; face < t.faces().size(); ++face) {
     const Triangulation::Face& f = t.faces()[face];
-    Node node{f.vertex, {}, 0, 0, 0};
+    Node node{f.vertex, {}, 0, 0, 0, f.is_free};
     for (std::size_t i = 0; i < 3; ++i) {
       node.across[i] = acrossOf(t, face, i);
     }
@@ -41,7 +45,7 @@ SquareExpander::SquareExpander(const Triangulation& t)
 }
 
 std::int32_t SquareExpander::acrossOf(const Triangulation& t, std::size_t face, std::size_t i) {
-  if (t.passageOutwards(face, i) != Passage::clear) return kEnd;
+  if (t.faces()[face].passage[i] == Passage::wall) return kEnd;
   const std::int32_t next = t.faces()[face].neighbor[i];
   if (next == Triangulation::kNone) return kRim;
   const auto& neighbors = t.faces()[static_cast<std::size_t>(next)].neighbor;
@@ -50,16 +54,19 @@ std::int32_t SquareExpander::acrossOf(const Triangulation& t, std::size_t face, 
 }
 
 void SquareExpander::expand(const Square& square, const std::vector<std::int32_t>& faces,
-                            std::vector<HalfEdge>& ends) {
+                            std::vector<HalfEdge>& walls, std::vector<HalfEdge>& open) {
   square_ = square;
   center_x_ = static_cast<float>(square.center.x - origin_.x);
   center_y_ = static_cast<float>(square.center.y - origin_.y);
-  ends_ = &ends;
+  walls_ = &walls;
+  open_ = &open;
+  const auto outside = static_cast<float>(kHorizonOutside + square.half * kSqrt2);
   for (const std::int32_t face : faces) {
     const Node& node = nodes_[static_cast<std::size_t>(face)];
+    const Reach from_here = node.is_free ? Reach{kFar, false} : Reach{outside, true};
     for (std::uint32_t i = 0; i < 3; ++i) {
       const std::int32_t right = node.vertex[(i + 1) % 3], left = node.vertex[(i + 2) % 3];
-      reach(3 * static_cast<HalfEdge>(face) + i, {{right, right}, {left, left}});
+      reach(3 * static_cast<HalfEdge>(face) + i, {{right, right}, {left, left}}, from_here);
     }
   }
   while (!queue_.empty()) {
@@ -118,32 +125,64 @@ SquareExpander::Limits SquareExpander::joined(const Limits& a, const Limits& b, 
   return result;
 }
 
-void SquareExpander::reach(HalfEdge edge, const Cone& cone) {
+/// The least distance of a segment from the centre, rounded down.
+float SquareExpander::nearest(const TPoint2D& a, const TPoint2D& b) const {
+  return static_cast<float>(distanceToSegment({0, 0}, a, b) * (1.0 - 1e-6) - 1e-6);
+}
+
+/// Not less than the distance of any of its points from any of the square.
+float SquareExpander::farthest(const TPoint2D& a, const TPoint2D& b) const {
+  const double from_center = std::max(std::hypot(a.x, a.y), std::hypot(b.x, b.y));
+  return static_cast<float>((from_center + kSqrt2 * square_.half) * (1.0 + 1e-6) + 1e-6);
+}
+
+/// How far rays see that have passed an edge.
+SquareExpander::Reach SquareExpander::past(HalfEdge edge, const Reach& reach) const {
+  const Node& near = nodes_[edge / 3];
+  const Node& far = nodes_[static_cast<std::size_t>(near.across[edge % 3]) / 3];
+  if (near.is_free == far.is_free) return reach;
+  if (far.is_free) return reach.is_from_outside ? Reach{kFar, false} : reach;
+  if (reach.horizon < kFar) return reach;  // has left free space before
+  const std::int32_t right = near.vertex[(edge % 3 + 1) % 3],
+                     left = near.vertex[(edge % 3 + 2) % 3];
+  const double behind = horizon_ + kSqrt2 * square_.half;  // of a point's ray, from the centre
+  return {farthest(at(right), at(left)) + static_cast<float>(behind), false};
+}
+
+void SquareExpander::reach(HalfEdge edge, const Cone& cone, Reach reach) {
   const Node& near = nodes_[edge / 3];
   const std::uint32_t i = edge % 3;
   const std::int32_t right = near.vertex[(i + 1) % 3], left = near.vertex[(i + 2) % 3];
   Passed& passed = passed_[edge];
+  if (passed.count > 0 && near.across[i] < 0) return;  // an end, listed
+  const TPoint2D r = at(right), l = at(left);
+  if (reach.horizon < kFar && nearest(r, l) > reach.horizon) return;
   if (passed.count == 0) {
     // No point of the square on the near side: no ray leaves the face here.
-    const TPoint2D r = at(right), l = at(left);
     if (cross(r, l) <= -square_.half * extent(r, l)) return;
     touched_.push_back(edge);
     passed.count = 1;
-    if (near.across[i] < 0) {
-      if (near.across[i] == kEnd) ends_->push_back(edge);
-      passed.count = kMostWidenings + 1;
-    } else {
-      passed.cone = cone;
-      wait(edge, near.across[i]);
-    }
+    passed.reach = reach;
+    passed.cone = cone;
+    if (near.across[i] == kEnd) walls_->push_back(edge);
+    if (near.across[i] >= 0) wait(edge, near.across[i]);
     return;
   }
-  if (passed.count > kMostWidenings) return;  // an end, or open to the whole edge
-  Cone wide{joined(passed.cone.right, cone.right, right, Side::right),
+  const Reach wide_reach{std::max(passed.reach.horizon, reach.horizon),
+                         passed.reach.is_from_outside || reach.is_from_outside};
+  const bool sees_farther = wide_reach.horizon > passed.reach.horizon ||
+                            wide_reach.is_from_outside != passed.reach.is_from_outside;
+  const bool is_open_whole = passed.count > kMostWidenings;
+  Cone wide = passed.cone;
+  if (!is_open_whole) {
+    wide = {joined(passed.cone.right, cone.right, right, Side::right),
             joined(passed.cone.left, cone.left, left, Side::left)};
-  if (wide.right == passed.cone.right && wide.left == passed.cone.left) return;
-  if (++passed.count > kMostWidenings) wide = {{right, right}, {left, left}};
+  }
+  const bool is_wider = wide.right != passed.cone.right || wide.left != passed.cone.left;
+  if (!is_wider && !sees_farther) return;
+  if (!is_open_whole && ++passed.count > kMostWidenings) wide = {{right, right}, {left, left}};
   passed.cone = wide;
+  passed.reach = wide_reach;
   if (!passed.is_waiting) wait(edge, near.across[i]);
 }
 
@@ -157,6 +196,8 @@ void SquareExpander::wait(HalfEdge edge, std::int32_t across) {
 
 void SquareExpander::follow(HalfEdge edge) {
   const Cone cone = passed_[edge].cone;
+  const Reach before = passed_[edge].reach, reach_past = past(edge, before);
+  if (before.horizon == kFar && reach_past.horizon < kFar) open_->push_back(edge);
   const auto across = static_cast<HalfEdge>(nodes_[edge / 3].across[edge % 3]);
   const HalfEdge entered = across % 3, base = across - entered;
   const std::int32_t apex = nodes_[across / 3].vertex[entered];
@@ -165,11 +206,12 @@ void SquareExpander::follow(HalfEdge edge) {
   const bool sees_left = isSeenPast(cone.left, a, Side::left);
   if (sees_left) {
     reach(base + (entered + 2) % 3,
-          {sees_right ? tightened(cone.right, apex, Side::right) : cone.right, cone.left});
+          {sees_right ? tightened(cone.right, apex, Side::right) : cone.right, cone.left},
+          reach_past);
   }
   if (sees_right) {
     reach(base + (entered + 1) % 3,
-          {cone.right, sees_left ? tightened(cone.left, apex, Side::left) : cone.left});
+          {cone.right, sees_left ? tightened(cone.left, apex, Side::left) : cone.left}, reach_past);
   }
 }
 

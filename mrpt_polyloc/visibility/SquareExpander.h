@@ -27,17 +27,27 @@ struct Square {
 /// order of visibility in a Delaunay triangulation), so that an edge is mostly followed once, with
 /// all the cones that reach it.
 ///
+/// What lies in unknown space is seen up to a horizon only: so far behind the first open edge by
+/// which a ray leaves free space, whatever it passes there. Without it nearly every wall of a map
+/// with holes is seen from nearly everywhere. From a point in unknown space one sees less far,
+/// unless through free space, where a ray begins anew.
+///
 /// Keeps its memory between calls: use one per thread.
 class SquareExpander {
  public:
   using HalfEdge = std::uint32_t;  // 3 * face + edge
 
-  explicit SquareExpander(const Triangulation& triangulation);
+  /// How far from a square in unknown space walls are seen without passing free space [m]: allowed
+  /// poses lie beside free space and look into it.
+  static constexpr double kHorizonOutside = 3.0;
 
-  /// Where the view may end, in no order: walls, seen from the side of their face, and open edges
-  /// that lead out of free space. `faces` are those that overlap the square.
+  /// \param horizon how far behind the first open edge walls are seen [m]
+  SquareExpander(const Triangulation& triangulation, double horizon);
+
+  /// What may be seen, in no order: walls, from the side of their face, and the open edges by which
+  /// rays first leave free space. `faces` are those that overlap the square.
   void expand(const Square& square, const std::vector<std::int32_t>& faces,
-              std::vector<HalfEdge>& ends);
+              std::vector<HalfEdge>& walls, std::vector<HalfEdge>& open);
 
  private:
   /// Limits of a cone of sight on one side: two vertices, or one twice. Which of two is the tighter
@@ -46,9 +56,15 @@ class SquareExpander {
   struct Cone {
     Limits right, left;
   };
+  /// How far from the centre rays see [m], and whether free space would let them see on.
+  struct Reach {
+    float horizon;  ///< infinity: they are in free space, and have been since they entered it
+    bool is_from_outside;
+  };
   /// What is known of a half edge: the cone by which it is passed.
   struct Passed {
     Cone cone{};
+    Reach reach{};
     std::int32_t count = 0;  ///< how often the cone was set or widened
     bool is_waiting = false;
   };
@@ -57,8 +73,9 @@ class SquareExpander {
     std::array<std::int32_t, 3> vertex;
     std::array<std::int32_t, 3> across;  ///< the same edge from its other side, or kEnd or kRim
     float x, y, squared_radius;          ///< of its circle, relative to the first vertex
+    bool is_free;
   };
-  static constexpr std::int32_t kEnd = -1;  ///< a wall, or an open edge out of free space
+  static constexpr std::int32_t kEnd = -1;  ///< a wall
   static constexpr std::int32_t kRim = -2;  ///< of the box
   struct Waiting {
     float distance;  ///< squared, less the squared radius
@@ -75,16 +92,21 @@ class SquareExpander {
   Limits tightened(const Limits& limits, std::int32_t apex, Side side) const;
   Limits joined(const Limits& a, const Limits& b, std::int32_t end, Side side) const;
   static std::int32_t acrossOf(const Triangulation& t, std::size_t face, std::size_t i);
-  void reach(HalfEdge edge, const Cone& cone);
+  float nearest(const TPoint2D& a, const TPoint2D& b) const;
+  float farthest(const TPoint2D& a, const TPoint2D& b) const;
+  Reach past(HalfEdge edge, const Reach& reach) const;
+  void reach(HalfEdge edge, const Cone& cone, Reach reach);
   void wait(HalfEdge edge, std::int32_t across);
   void follow(HalfEdge edge);
 
   const Triangulation* t_;
+  double horizon_;
   TPoint2D origin_{0, 0};
   std::vector<Node> nodes_;
   Square square_{{0, 0}, 0};
   float center_x_ = 0, center_y_ = 0;  ///< relative to the origin
-  std::vector<HalfEdge>* ends_ = nullptr;
+  std::vector<HalfEdge>* walls_ = nullptr;
+  std::vector<HalfEdge>* open_ = nullptr;
   std::vector<Passed> passed_;
   std::vector<HalfEdge> touched_;
   std::vector<Waiting> queue_;  ///< a heap

@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
 
 #include <tbb/blocked_range.h>
@@ -32,25 +33,18 @@ bool overlap(const Triangulation& t, const Triangulation::Face& face, const Squa
 }  // namespace
 
 VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, double square_size,
-                                   int threads, BuildProgress* progress)
-    : VisibleEdgeIndex(triangulation, triangulation.wallsAlone(), square_size, threads, progress) {}
-
-VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, const Triangulation& walls,
-                                   double square_size, int threads, BuildProgress* progress)
-    : chains_(triangulation, walls) {
+                                   int threads, double horizon, BuildProgress* progress)
+    : chains_(triangulation) {
+  requirePositive("horizon", horizon);
   lists_.layout = chains_.hash();
+  lists_.horizon = horizon;
   layGrid(triangulation.box(), square_size);
   const std::size_t lists = numberLists(triangulation);
-  if (progress != nullptr) progress->begin(2 * lists);
-  const auto seen_walls =
-      findRuns(walls, lists, threads, progress,
-               [this](std::size_t face, std::size_t i) { return chains_.wallNumber(face, i); });
-  const auto seen_open =
-      findRuns(triangulation, lists, threads, progress,
-               [this](std::size_t face, std::size_t i) { return chains_.openNumber(face, i); });
+  if (progress != nullptr) progress->begin(lists);
+  const std::vector<SeenRuns> seen = findRuns(triangulation, lists, threads, progress);
   lists_.begin.push_back(0);
-  for (std::size_t i = 0; i < lists; ++i) {
-    for (const auto* runs : {&seen_walls[i], &seen_open[i]}) {
+  for (const SeenRuns& from_square : seen) {
+    for (const auto* runs : {&from_square.walls, &from_square.open}) {
       lists_.runs.insert(lists_.runs.end(), runs->begin(), runs->end());
       lists_.begin.push_back(static_cast<std::uint32_t>(lists_.runs.size()));
     }
@@ -59,7 +53,7 @@ VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, const Tri
 }
 
 VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, Lists lists)
-    : chains_(triangulation, triangulation.wallsAlone()) {
+    : chains_(triangulation) {
   layGrid(triangulation.box(), lists.square_size);
   lists_ = std::move(lists);
   const auto require = [](bool is_met) {
@@ -73,6 +67,7 @@ VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, Lists lis
           lists_.begin.back() == lists_.runs.size() &&
           std::is_sorted(lists_.begin.begin(), lists_.begin.end()));
   require(lists_.squares.size() == lists_.begin.size() / 2);
+  require(lists_.horizon > 0.0);
   for (const SquarePlace& place : lists_.squares) {
     require(place.column >= 0 && place.column < grid_.columns() && place.row >= 0 &&
             place.row < grid_.rows() && grid_.at(place.column, place.row) == TiledGrid::kNone);
@@ -154,10 +149,9 @@ std::size_t VisibleEdgeIndex::numberLists(const Triangulation& t) {
   return lists_.squares.size();
 }
 
-template <class Numbers>
-std::vector<std::vector<VisibleEdgeIndex::Run>> VisibleEdgeIndex::findRuns(
-    const Triangulation& t, std::size_t lists, int threads, BuildProgress* progress,
-    const Numbers& number) const {
+std::vector<VisibleEdgeIndex::SeenRuns> VisibleEdgeIndex::findRuns(const Triangulation& t,
+                                                                   std::size_t lists, int threads,
+                                                                   BuildProgress* progress) const {
   std::vector<std::vector<std::int32_t>> faces(lists);
   for (std::size_t f = 0; f < t.faces().size(); ++f) {
     const SquareRange range = rangeOf(t, t.faces()[f]);
@@ -172,27 +166,33 @@ std::vector<std::vector<VisibleEdgeIndex::Run>> VisibleEdgeIndex::findRuns(
 
   struct Worker {
     SquareExpander expander;
-    std::vector<SquareExpander::HalfEdge> ends;
+    std::vector<SquareExpander::HalfEdge> walls, open;
     std::vector<std::uint32_t> numbers;
   };
-  tbb::enumerable_thread_specific<Worker> workers([&t] {
-    return Worker{SquareExpander(t), {}, {}};
+  tbb::enumerable_thread_specific<Worker> workers([&] {
+    return Worker{SquareExpander(t, lists_.horizon), {}, {}, {}};
   });
-  std::vector<std::vector<Run>> runs(lists);
+  std::vector<SeenRuns> runs(lists);
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lists, 16), [&](const auto& range) {
       Worker& worker = workers.local();
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
-        worker.ends.clear();
-        worker.numbers.clear();
+        worker.walls.clear();
+        worker.open.clear();
         const SquarePlace& place = lists_.squares[i];
-        worker.expander.expand(square(place.column, place.row), faces[i], worker.ends);
-        for (const SquareExpander::HalfEdge edge : worker.ends) {
-          const std::uint32_t n = number(edge / 3, edge % 3);
-          if (n != BoundaryChains::kNone) worker.numbers.push_back(n);
+        worker.expander.expand(square(place.column, place.row), faces[i], worker.walls,
+                               worker.open);
+        worker.numbers.clear();
+        for (const auto edge : worker.walls) {
+          worker.numbers.push_back(chains_.wallNumber(edge / 3, edge % 3));
         }
-        runs[i] = runsOf(worker.numbers);
+        runs[i].walls = runsOf(worker.numbers);
+        worker.numbers.clear();
+        for (const auto edge : worker.open) {
+          worker.numbers.push_back(chains_.openNumber(edge / 3, edge % 3));
+        }
+        runs[i].open = runsOf(worker.numbers);
       }
       if (progress != nullptr) progress->take(range.size());
     });
@@ -205,6 +205,7 @@ std::vector<std::vector<VisibleEdgeIndex::Run>> VisibleEdgeIndex::findRuns(
 std::vector<VisibleEdgeIndex::Run> VisibleEdgeIndex::runsOf(
     std::vector<std::uint32_t>& numbers) const {
   std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   std::vector<Run> runs;
   for (const std::uint32_t number : numbers) {
     if (!runs.empty()) {

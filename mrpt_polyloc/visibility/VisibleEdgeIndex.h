@@ -15,6 +15,10 @@ namespace mrpt_polyloc {
 /// For every square square of a grid over the free space, the edges that may be seen from some
 /// point of it: a superset, so that a depth buffer over the list gives the exact view. Lists are
 /// runs of BoundaryChains. Built on several threads with one result.
+///
+/// Walls are seen up to a horizon: from a point in free space, all that a ray meets until it has
+/// gone so far past the first open edge by which it left (from a point in unknown space see
+/// SquareExpander). This keeps lists local: unknown space is transparent.
 class VisibleEdgeIndex {
  public:
   using Run = BoundaryChains::Run;
@@ -26,12 +30,16 @@ class VisibleEdgeIndex {
     std::size_t open_runs;
   };
 
-  /// \param square_size side of the squares [m], > 0
-  /// \param threads 0: all cores
-  /// \throws InvalidParamsError for a square size that is not positive, or gives more than 10^12
-  /// squares to the map's box; CancelledError
+  /// The default horizon [m]: nothing is lost by it on real maps with their many holes, where one
+  /// of 10 m loses some poses (doc/performance.md).
+  static constexpr double kHorizon = 20.0;
+
+  /// \param square_size side of the squares [m], > 0 \param threads 0: all cores
+  /// \param horizon [m], > 0
+  /// \throws InvalidParamsError for a horizon that is not positive, a square size that is not, or
+  /// gives more than 10^12 squares to the map's box; CancelledError
   VisibleEdgeIndex(const Triangulation& triangulation, double square_size, int threads = 0,
-                   BuildProgress* progress = nullptr);
+                   double horizon = kHorizon, BuildProgress* progress = nullptr);
 
   struct SquarePlace {
     std::int32_t column, row;
@@ -39,6 +47,7 @@ class VisibleEdgeIndex {
   /// What takes long to find, to be stored.
   struct Lists {
     double square_size = 0.0;          ///< [m]
+    double horizon = 0.0;              ///< [m]
     std::uint64_t layout = 0;          ///< BoundaryChains::hash() of what `runs` refers to
     std::vector<SquarePlace> squares;  ///< that have lists, row by row
     std::vector<std::uint32_t> begin;  ///< into `runs`: walls at 2 i, open edges at 2 i + 1
@@ -55,6 +64,7 @@ class VisibleEdgeIndex {
   /// indexed.
   std::int64_t squareNumber(const TPoint2D& point) const;
   EdgeRuns edgeRuns(std::int64_t number) const;
+  double horizon() const { return lists_.horizon; }  ///< [m]
 
   const BoundaryChains& chains() const { return chains_; }
   /// Memory held, that of the chains included.
@@ -68,13 +78,13 @@ class VisibleEdgeIndex {
   Square square(int column, int row) const;
   /// Numbers the squares to be indexed; returns how many there are.
   std::size_t numberLists(const Triangulation& t);
-  /// The runs seen from each indexed square, given the numbers of a triangulation's edges.
-  template <class Numbers>
-  std::vector<std::vector<Run>> findRuns(const Triangulation& t, std::size_t lists, int threads,
-                                         BuildProgress* progress, const Numbers& number) const;
+  /// The runs seen from a square.
+  struct SeenRuns {
+    std::vector<Run> walls, open;
+  };
+  std::vector<SeenRuns> findRuns(const Triangulation& t, std::size_t lists, int threads,
+                                 BuildProgress* progress) const;
   std::vector<Run> runsOf(std::vector<std::uint32_t>& numbers) const;
-  VisibleEdgeIndex(const Triangulation& triangulation, const Triangulation& walls,
-                   double square_size, int threads, BuildProgress* progress);
   void layGrid(const BoundingBox& box, double square_size);
 
   BoundaryChains chains_;

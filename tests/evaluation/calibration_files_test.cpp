@@ -18,7 +18,7 @@ using testing::HasSubstr;
 Calibration someCalibration() {
   Calibration calibration;
   calibration.match_intercept = -3.25;
-  calibration.match_weights = {1.5, 2.0, -0.5, 0.125};
+  calibration.match_weights = {1.5, 2.0, -0.5, 0.125, 0.25};
   calibration.least_match_probability = 0.0625;
   calibration.weight_decay = 3.0;
   calibration.unique_probability = 0.875;
@@ -77,7 +77,8 @@ TEST(CalibrationHeader, HoldsTheConstants) {
   EXPECT_THAT(text, HasSubstr("constexpr double kMatchIntercept = -3.25;\n"));
   EXPECT_THAT(text, HasSubstr("constexpr double kWeightDecay = 3.0;\n"));
   EXPECT_THAT(
-      text, HasSubstr("constexpr std::array<double, 4> kMatchWeights = {1.5, 2.0, -0.5, 0.125};"));
+      text,
+      HasSubstr("constexpr std::array<double, 5> kMatchWeights = {1.5, 2.0, -0.5, 0.125, 0.25};"));
 }
 
 TEST(CalibrationHeader, TheBuiltInOneIsWhatItWouldWrite) {

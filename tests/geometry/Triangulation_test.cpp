@@ -236,21 +236,6 @@ TEST(Triangulation, TakesSlivers) {
   EXPECT_NEAR(area(t, true), map.area(), 1e-12);
 }
 
-TEST(Triangulation, LeavesOpenEdgesOutOfTheWallsAlone) {
-  std::mt19937 random(16);
-  for (std::uint32_t seed = 0; seed < 20; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    const Triangulation t(floorPlan(test::randomParams(random), seed));
-    const Triangulation walls = t.wallsAlone();
-    expectConsistent(walls);
-    EXPECT_EQ(length(walls, Passage::open), 0.0);
-    EXPECT_NEAR(length(walls, Passage::wall), length(t, Passage::wall), 1e-7);
-    EXPECT_EQ(area(walls, true), 0.0);
-    EXPECT_EQ(walls.box().min, t.box().min);
-    EXPECT_LE(walls.faces().size(), t.faces().size());
-  }
-}
-
 TEST(Triangulation, LocatesInALargeNoisyMap) {
   std::mt19937 random(15);
   FloorPlanParams params = test::noisyFloor();

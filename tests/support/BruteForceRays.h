@@ -19,7 +19,8 @@ struct RayHit {
 /// the ray crosses it from its left, free, side to its right, and before the first wall.
 class BruteForceRays {
  public:
-  explicit BruteForceRays(const PolygonMap& map) {
+  /// \param horizon walls farther than this behind the open edge are not met [m]
+  explicit BruteForceRays(const PolygonMap& map, double horizon = 20.0) : horizon_(horizon) {
     for (const Ring* ring : map.rings()) {
       for (std::size_t i = 0; i < ring->size(); ++i) {
         const Edge edge{ring->vertices[i], ring->vertices[(i + 1) % ring->size()]};
@@ -40,6 +41,7 @@ class BruteForceRays {
       if (outwards) hit.open = std::fmin(hit.open, range(edge, from, ux, uy));
     }
     if (hit.open >= hit.wall) hit.open = std::numeric_limits<double>::infinity();
+    if (hit.wall > hit.open + horizon_) hit.wall = std::numeric_limits<double>::infinity();
     return hit;
   }
 
@@ -60,6 +62,7 @@ class BruteForceRays {
     return r > 0 ? r : kNothing;
   }
 
+  double horizon_;
   std::vector<Edge> walls_, open_;
 };
 

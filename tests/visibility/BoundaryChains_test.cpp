@@ -30,7 +30,7 @@ TEST(BoundaryChains, HoldAllWallsTwiceAndOpenEdgesOnce) {
     params.crossing_walls = 0;
     const PolygonMap map = test::floorPlan(params, seed);
     const Triangulation triangulation(map);
-    const BoundaryChains chains(triangulation, triangulation.wallsAlone());
+    const BoundaryChains chains(triangulation);
     EXPECT_NEAR(length(chains, chains.open()), map.openPerimeter(), 1e-4);
     double walls = 0.0;
     for (const Triangulation::Face& face : triangulation.faces()) {
@@ -50,7 +50,7 @@ TEST(BoundaryChains, FollowABorderWithoutABreak) {
   const PolygonMap map(
       {{wallRing({{0, 0}, {9, 0}, {9, 9}, {0, 9}}), {wallRing({{3, 3}, {3, 6}, {6, 6}, {6, 3}})}}});
   const Triangulation triangulation(map);
-  const BoundaryChains chains(triangulation, triangulation.wallsAlone());
+  const BoundaryChains chains(triangulation);
   ASSERT_EQ(chains.walls().size(), 4U);
   for (const BoundaryChains::Run& run : chains.walls()) {
     EXPECT_EQ(run.edges, 4U);
@@ -63,7 +63,7 @@ TEST(BoundaryChains, FollowABorderWithoutABreak) {
 TEST(BoundaryChains, TurnAtTheEndOfAWall) {
   const PolygonMap map({{wallRing({{0, 0}, {9, 0}, {9, 9}, {0, 9}}), {}}}, {{{3, 3}, {6, 6}}});
   const Triangulation triangulation(map);
-  const BoundaryChains chains(triangulation, triangulation.wallsAlone());
+  const BoundaryChains chains(triangulation);
   std::size_t both_sides = 0;
   for (const BoundaryChains::Run& run : chains.walls()) both_sides += run.edges == 2 ? 1 : 0;
   EXPECT_EQ(both_sides, 1U);
@@ -72,7 +72,7 @@ TEST(BoundaryChains, TurnAtTheEndOfAWall) {
 TEST(BoundaryChains, AreExactFarFromTheOrigin) {
   const TPoint2D a(1e6, -1e6), b(1e6 + 30, -1e6), c(1e6 + 30, -1e6 + 20.123456789);
   const Triangulation triangulation(PolygonMap({{wallRing({a, b, c}), {}}}));
-  const BoundaryChains chains(triangulation, triangulation.wallsAlone());
+  const BoundaryChains chains(triangulation);
   EXPECT_LT(chains.unit(), 1e-7);
   const double height = (chains.fixedY(c.y) - chains.fixedY(b.y)) * chains.unit();
   EXPECT_NEAR(height, 20.123456789, 1e-7);

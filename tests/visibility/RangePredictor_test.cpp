@@ -122,6 +122,13 @@ std::vector<double> randomBearings(std::mt19937& random) {
   }
 }
 
+/// Poses in free space, and others in the box of the map: of these all is seen through free space.
+std::vector<TPose2D> freePoses(const Triangulation& t, std::vector<TPose2D> poses) {
+  const auto is_outside = [&t](const TPose2D& pose) { return !t.isFree({pose.x, pose.y}); };
+  poses.erase(std::remove_if(poses.begin(), poses.end(), is_outside), poses.end());
+  return poses;
+}
+
 std::vector<TPose2D> randomPoses(const PolygonMap& map, std::size_t count, std::mt19937& random) {
   std::uniform_real_distribution<double> heading(-kPi, kPi);
   std::vector<TPose2D> poses;
@@ -138,13 +145,14 @@ TEST(RangePredictor, EqualsBruteForceOnRandomMaps) {
   for (std::uint32_t seed = 0; seed < 80; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const PolygonMap map = test::floorPlan(test::randomParams(random), seed);
-    const BruteForceRays rays(map);
     const Triangulation triangulation(map);
     const double square_size = seed % 3 == 0 ? 0.2 : seed % 3 == 1 ? 0.5 : 1.7;
-    const RangePredictor predictor(triangulation, square_size, 1);
+    const double horizon = seed % 4 == 0 ? 0.3 : seed % 4 == 1 ? 1.0 : seed % 4 == 2 ? 4.0 : 1e3;
+    const BruteForceRays rays(map, horizon);
+    const RangePredictor predictor(triangulation, square_size, 1, horizon);
     for (int i = 0; i < 6; ++i) {
       const std::vector<double> bearings = randomBearings(random);
-      const std::vector<TPose2D> poses = randomPoses(map, 12, random);
+      const std::vector<TPose2D> poses = freePoses(triangulation, randomPoses(map, 20, random));
       PredictedRanges predicted;
       predictor.predict(poses, BeamPattern(bearings), predicted);
       ASSERT_EQ(predicted.wall.size(), poses.size() * bearings.size());
@@ -157,6 +165,39 @@ TEST(RangePredictor, EqualsBruteForceOnRandomMaps) {
   }
   EXPECT_GT(beams, 300000U);
   EXPECT_LT(static_cast<double>(grazing), 1e-3 * static_cast<double>(beams));
+}
+
+TEST(RangePredictor, SeesNearWallsFromUnknownSpaceAndNoWallTooNear) {
+  std::mt19937 random(24);
+  const double outside = SquareExpander::kHorizonOutside;
+  std::size_t near = 0, far = 0, wrong = 0;
+  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+    const PolygonMap map = test::floorPlan(test::randomParams(random), seed);
+    const Triangulation triangulation(map);
+    const BruteForceRays rays(map);
+    const RangePredictor predictor(triangulation, 0.5, 1);
+    const std::vector<double> bearings = fan(90, -kPi, 2 * kPi);
+    const BeamPattern beams(bearings);
+    PredictedRanges predicted;
+    for (const TPose2D& pose : randomPoses(map, 20, random)) {
+      if (triangulation.isFree({pose.x, pose.y})) continue;
+      predictor.predict(pose, beams, predicted);
+      for (std::size_t i = 0; i < bearings.size(); ++i) {
+        const RayHit hit = rays.cast({pose.x, pose.y}, pose.phi + bearings[i]);
+        const double wall = predicted.wall[i];
+        if (hit.wall < outside) {
+          ++near;
+          wrong += close(wall, hit.wall) ? 0U : 1U;
+        } else {
+          ++far;
+          wrong += wall < outside ? 1U : 0U;
+        }
+      }
+    }
+  }
+  EXPECT_GT(near, 5000U);
+  EXPECT_GT(far, 1000U);
+  EXPECT_LE(wrong, (near + far) / 1000);  // beams that graze a vertex
 }
 
 TEST(RangePredictor, GivesOnePoseWhatItGivesMany) {
@@ -195,11 +236,12 @@ TEST(RangePredictor, GivesTheLinesThatAreHit) {
     const BeamPattern beams(bearings);
     PredictedRanges ranges;
     PredictedHits hits;
-    for (const TPose2D& pose : randomPoses(map, 30, random)) {
+    for (const TPose2D& pose : freePoses(triangulation, randomPoses(map, 60, random))) {
       predictor.predict(pose, beams, ranges);
       predictor.predict(pose, beams, hits);
       for (std::size_t i = 0; i < bearings.size(); ++i) {
         const double wall = ranges.wall[i];
+        if (std::isinf(wall) && !std::isinf(ranges.open[i])) continue;  // beyond the horizon
         if (std::isinf(wall)) {
           EXPECT_EQ(hits.along[i], 0.0F);
           EXPECT_EQ(hits.across[i], 0.0F);

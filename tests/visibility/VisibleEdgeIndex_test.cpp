@@ -60,12 +60,10 @@ TEST(VisibleEdgeIndex, ListsAllThatIsSeenFromAnyPointOfACell) {
     const double square_size = seed % 3 == 0 ? 0.2 : seed % 3 == 1 ? 0.5 : 1.7;
     const VisibleEdgeIndex index(t, square_size, 1);
     ViewExpander expander(t);
-    for (const TPoint2D& p : test::randomPoints(map, 0.5, 150, random)) {
+    for (const TPoint2D& p : test::randomPoints(map, 0.5, 300, random)) {
+      if (!t.isFree(p)) continue;  // sees less, see SquareExpander
       const std::int64_t number = index.squareNumber(p);
-      if (t.isFree(p)) {
-        EXPECT_GE(number, 0);
-      }
-      if (number < 0) continue;
+      ASSERT_GE(number, 0);
       ++points;
       const VisibleEdgeIndex::EdgeRuns square = index.edgeRuns(number);
       const View& view = expander.expand(p);
@@ -80,6 +78,22 @@ TEST(VisibleEdgeIndex, ListsAllThatIsSeenFromAnyPointOfACell) {
     }
   }
   EXPECT_GT(points, 3000U);
+}
+
+TEST(VisibleEdgeIndex, ListsNoWallsFarBehindOpenEdges) {
+  // Two rooms that look at each other over 30 m of unknown space.
+  Ring left = wallRing({{0, 0}, {4, 0}, {4, 4}, {0, 4}}), right = left;
+  for (TPoint2D& p : right.vertices) p.x += 34;
+  left.kinds[1] = right.kinds[3] = EdgeKind::open;
+  const Triangulation t(PolygonMap({{left, {}}, {right, {}}}));
+  const auto walls_seen = [&t](double horizon) {
+    const VisibleEdgeIndex index(t, 0.5, 1, horizon);
+    const VisibleEdgeIndex::EdgeRuns square = index.edgeRuns(index.squareNumber({2, 2}));
+    EXPECT_EQ(edgesOf(index.chains(), square.open, square.open_runs).size(), 1U) << horizon;
+    return edgesOf(index.chains(), square.walls, square.wall_runs).size();
+  };
+  EXPECT_EQ(walls_seen(20.0), 3U);
+  EXPECT_GE(walls_seen(40.0), 6U);  // the other room's inside, through its open edge
 }
 
 TEST(VisibleEdgeIndex, ListsFewEdgesThatAreNotSeen) {
@@ -138,6 +152,7 @@ TEST(VisibleEdgeIndex, RefusesCellSizesThatMakeNoGrid) {
     EXPECT_THROW(VisibleEdgeIndex(t, size, 1), InvalidParamsError) << size;
   }
   EXPECT_TRUE(VisibleEdgeIndex(t, 1e9, 1).covers({1, 1}));  // one square
+  EXPECT_THROW(VisibleEdgeIndex(t, 0.5, 1, 0.0), InvalidParamsError);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ std::vector<ScoredPose> refine(const std::vector<mrpt::math::TPose2D>& candidate
   }
   poses = mergeNearPoses(std::move(poses), params.hypotheses);
   // Rivals count even where they are not asked for: one hypothesis may be all that is returned.
-  constexpr std::size_t kLeastRivals = 20;
+  constexpr std::size_t kLeastRivals = 50;
   const std::size_t kept = std::max(params.max_hypotheses, kLeastRivals);
   if (poses.size() > 2 * kept) poses.resize(2 * kept);
   // Those that cost much more than the best will not become it.

@@ -20,7 +20,7 @@ constexpr double kWeightDecay = 4.840728;
 constexpr double kUniqueProbability = 0.6227145;
 constexpr double kPositionFactor = 1.780324;
 constexpr double kHeadingFactor = 1.173026;
-/// explained, lead, heading, seen
-constexpr std::array<double, 4> kMatchWeights = {6.54571, 11.23423, -1.255878, 3.657063};
+/// explained, lead, heading, seen, on_walls
+constexpr std::array<double, 5> kMatchWeights = {6.54571, 11.23423, -1.255878, 3.657063, 0.0};
 
 }  // namespace mrpt_polyloc::default_calibration

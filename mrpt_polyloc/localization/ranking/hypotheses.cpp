@@ -2,8 +2,8 @@
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/localization/ranking/hypotheses.h>
 #include <mrpt_polyloc/localization/ranking/pose_covariance.h>
+#include <mrpt_polyloc/localization/scan/BeamEvidence.h>
 #include <mrpt_polyloc/localization/scan/BeamSectors.h>
-#include <mrpt_polyloc/localization/scan/beam_evidence.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,10 +61,9 @@ std::vector<Hypothesis> toHypotheses(const std::vector<ScoredPose>& poses, const
   if (poses.empty()) return {};
   std::vector<std::vector<float>> evidence;
   std::vector<double> means;
-  PredictedRanges predicted;
+  const BeamEvidence against(cost, params.evidence);
   for (const ScoredPose& pose : poses) {
-    cost.predict(pose.refined.pose_map_beams, predicted);
-    evidence.push_back(beamEvidence(cost.beams(), predicted, params.evidence));
+    evidence.push_back(against.at(pose.refined.pose_map_beams));
     means.push_back(meanOf(evidence.back()));
   }
   const std::size_t best =

@@ -14,7 +14,7 @@ namespace mrpt_polyloc {
 std::vector<ScoredPose> mergeNearPoses(std::vector<ScoredPose> poses,
                                        const HypothesisParams& params = {});
 
-/// The poses as hypotheses for the robot, ranked by the evidence (beamEvidence()), with covariance
+/// The poses as hypotheses for the robot, ranked by the evidence (BeamEvidence), with covariance
 /// and weight.
 ///
 /// A weight is the probability that the hypothesis is the right one, given that one of them is: the

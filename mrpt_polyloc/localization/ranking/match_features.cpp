@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/localization/ranking/match_features.h>
 #include <mrpt_polyloc/localization/ranking/pose_covariance.h>
+#include <mrpt_polyloc/localization/scan/BeamEvidence.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +54,7 @@ MatchFeatures matchFeatures(const std::vector<ScoredPose>& poses, const ScoredPo
   features.lead = leadOf(poses);
   features.heading = 0.5 * std::log(covarianceOfBeams(first.refined, sectors.count())(2, 2));
   features.seen = view > 0.0 ? seen / view : 1.0;
+  features.on_walls = BeamEvidence(cost).nearness(first.refined.pose_map_beams);
   return features;
 }
 

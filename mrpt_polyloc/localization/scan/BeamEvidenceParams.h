@@ -4,7 +4,7 @@
 
 namespace mrpt_polyloc {
 
-/// See beamEvidence().
+/// See beamEvidence() and BeamEvidence.
 struct BeamEvidenceParams {
   /// As the cost that candidates are compared by, but for beams that end before the map's wall: up
   /// to half a metre.
@@ -14,6 +14,12 @@ struct BeamEvidenceParams {
   /// [m/m] ...
   double hidden_cost = 0.05;
   double most_hidden = 5.0;  ///< ... up to here [m]: a large part of a room is rarely hidden
+
+  /// Each point that lies on no wall costs so much [m], one on a wall nothing, with a Gaussian of
+  /// the distance between: chosen with whole maps left out (doc/localization.md).
+  double off_wall_cost = 0.2;
+  double wall_sigma = 0.2;  ///< of that Gaussian [m]
+  double thinning = 0.25;   ///< points in a square of this side count as one [m]
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;

@@ -24,6 +24,7 @@ class ScanCost {
   std::size_t beamCount() const { return beams_.size(); }
 
   const std::vector<Beam>& beams() const { return beams_; }
+  const RangePredictor& predictor() const { return *predictor_; }
 
   /// What the map predicts for these beams.
   void predict(const mrpt::math::TPose2D& pose_map_beams, PredictedRanges& out) const {

@@ -10,6 +10,9 @@ void BeamEvidenceParams::check() const {
   cost.check();
   requireInRange("hidden_cost", hidden_cost, 0.0, 10.0);
   requireInRange("most_hidden", most_hidden, 0.0, 1e3);
+  requireInRange("off_wall_cost", off_wall_cost, 0.0, 10.0);
+  requirePositive("wall_sigma", wall_sigma);
+  requirePositive("thinning", thinning);
 }
 
 std::vector<float> beamEvidence(const std::vector<Beam>& beams, const PredictedRanges& predicted,

@@ -39,7 +39,9 @@ BinBand unionOf(const BinBand& a, const BinBand& b) {
 
 }  // namespace
 
-void bandsOfLeaf(const RangeBands& ranges, NodeBands& bands) {
+void bandsOfLeaf(const RangeBands& ranges, double horizon, NodeBands& bands) {
+  constexpr double kLess = 1.0 - 1e-5;  // single precision
+  const auto sees = static_cast<float>(kLess * horizon);
   for (std::size_t b = 0; b < kBandBins; ++b) {
     const float near_low = std::min(ranges.wall_low[b], ranges.open_low[b]);
     const float near_high = std::min(ranges.wall_high[b], ranges.open_high[b]);
@@ -48,7 +50,9 @@ void bandsOfLeaf(const RangeBands& ranges, NodeBands& bands) {
     const Interval& gap = beyond_open.width() > of_walls.width() ? beyond_open : of_walls;
     const bool may_be_open =
         ranges.open_low[b] <= ranges.wall_high[b] && std::isfinite(ranges.open_low[b]);
-    bands[b] = {near_low, ranges.wall_high[b], gap.low, gap.high, may_be_open};
+    const bool is_known = !may_be_open || ranges.wall_high[b] <= ranges.open_low[b] + sees;
+    const float wall_high = is_known ? ranges.wall_high[b] : kInfinity;
+    bands[b] = {near_low, wall_high, gap.low, gap.high, may_be_open};
   }
 }
 

@@ -25,8 +25,9 @@ struct BinBand {
 /// Of all angular bins, entry b being of the window of bins that begins with b.
 using NodeBands = std::array<BinBand, kBandBins>;
 
-/// Of a leaf, over windows of one bin.
-void bandsOfLeaf(const RangeBands& ranges, NodeBands& bands);
+/// Of a leaf, over windows of one bin. A wall that may be seen more than the horizon [m] behind an
+/// open edge may as well not be known (see PredictedRanges).
+void bandsOfLeaf(const RangeBands& ranges, double horizon, NodeBands& bands);
 
 /// Makes `to` hold what `from` holds as well, entry b of the latter being taken for b - shift.
 void unite(const NodeBands& from, std::size_t shift, NodeBands& to);

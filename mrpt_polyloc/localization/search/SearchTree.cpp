@@ -228,7 +228,7 @@ void SearchTree::fill(const RangePredictor& predictor, int threads, BuildProgres
       std::size_t window = 1;
       if (level == 0) {
         finder.find(polygon(node), polygonSize(node), ranges_of_leaf);
-        bandsOfLeaf(ranges_of_leaf, bands);
+        bandsOfLeaf(ranges_of_leaf, predictor.index().horizon(), bands);
       } else {
         const Node& n = data_.levels[level].nodes[node];
         NodeBands child;

@@ -12,7 +12,7 @@ namespace mrpt_polyloc {
 namespace {
 
 constexpr char kMagic[8] = {'P', 'L', 'C', 'E', 'L', 'L', 'S', '\n'};  // as in version 1
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 class Writer {
  public:
@@ -124,6 +124,7 @@ void writeIndex(std::ostream& out, const VisibleEdgeIndex::Lists& edges,
   writer.put(map_hash);
   writer.put(edges.layout);
   writer.put(edges.square_size);
+  writer.put(edges.horizon);
   writer.put(tree.leaf_size);
   forEachArray(edges, tree, [&writer](const auto& array) { writer.put(array); });
   writer.putChecksum();
@@ -142,6 +143,7 @@ SearchIndex readIndex(std::istream& in, const std::string& file, std::uint64_t m
   SearchIndex index;
   index.edges.layout = reader.take<std::uint64_t>();
   index.edges.square_size = reader.take<double>();
+  index.edges.horizon = reader.take<double>();
   index.tree.leaf_size = reader.take<double>();
   forEachArray(index.edges, index.tree, [&reader](auto& array) { reader.take(array); });
   reader.requireChecksum();
