@@ -97,6 +97,21 @@ mrpt::obs::CObservation2DRangeScan emptyObservation(const SimulatorParams& param
   return observation;
 }
 
+mrpt::obs::CObservation2DRangeScan observe(const WallSegments& walls, const SimulatorParams& params,
+                                           const mrpt::math::TPose2D& pose, double stamp,
+                                           Random& noise) {
+  std::vector<double> ranges;
+  for (const double bearing : bearingsOf(params)) {
+    ranges.push_back(walls.range({pose.x, pose.y}, pose.phi + bearing));
+  }
+  occlude(ranges, params, noise);
+  mrpt::obs::CObservation2DRangeScan observation = emptyObservation(params, stamp);
+  fillRanges(observation, ranges, params, noise);
+  return observation;
+}
+
+constexpr double kFirstStamp = 1e9;
+
 void require(bool holds, const std::string& message) {
   if (!holds) throw InvalidParamsError("SimulatorParams: " + message);
 }
@@ -115,13 +130,20 @@ void SimulatorParams::check() const {
           "clearance must be finite and not negative");
 }
 
+mrpt::obs::CObservation2DRangeScan simulateScan(const WallSegments& walls,
+                                                const SimulatorParams& params,
+                                                const mrpt::math::TPose2D& pose_map_robot,
+                                                std::uint64_t seed) {
+  params.check();
+  Random noise(seed);
+  return observe(walls, params, pose_map_robot, kFirstStamp, noise);
+}
+
 std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorParams& params,
                                          std::size_t count, std::uint64_t seed) {
   params.check();
-  constexpr double kFirstStamp = 1e9;
   const WallSegments walls(map);
   const FreeSpaceSampler sampler(map);
-  const std::vector<double> bearings = bearingsOf(params);
   Random poses(seed);
   Random noise(seed ^ 0x9e3779b97f4a7c15ULL);  // a stream of its own, see the header
 
@@ -129,13 +151,9 @@ std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorP
   for (std::size_t row = 0; row < count; ++row) {
     const TPoint2D place = drawPlace(sampler, walls, params.clearance, poses);
     const double heading = poses.uniform(-kPi, kPi);
-    std::vector<double> ranges;
-    for (const double bearing : bearings) ranges.push_back(walls.range(place, heading + bearing));
-    occlude(ranges, params, noise);
-
     const double stamp = kFirstStamp + static_cast<double>(row);
-    scans.push_back({{stamp, {place.x, place.y, heading}}, emptyObservation(params, stamp)});
-    fillRanges(scans.back().observation, ranges, params, noise);
+    const mrpt::math::TPose2D pose(place.x, place.y, heading);
+    scans.push_back({{stamp, pose}, observe(walls, params, pose, stamp, noise)});
   }
   return scans;
 }

@@ -1,14 +1,17 @@
+#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/evaluation/WallSegments.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace mrpt_polyloc {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFarthest = 1e9;  // [m], of coordinates
 
 /// Range along the unit vector `ray` to the segment from a to b, both relative to the origin.
 double rangeTo(const TPoint2D& a, const TPoint2D& b, const TPoint2D& ray) {
@@ -29,7 +32,38 @@ double rangeTo(const TPoint2D& a, const TPoint2D& b, const TPoint2D& ray) {
   return range >= 0.0 ? range : kInfinity;
 }
 
+/// The same to a disc whose centre is relative to the origin.
+double rangeTo(const TPoint2D& center, double radius, const TPoint2D& ray) {
+  const double ahead = dot(ray, center), aside = cross(ray, center);
+  const double half_chord2 = radius * radius - aside * aside;
+  if (half_chord2 < 0.0) return kInfinity;
+  const double half_chord = std::sqrt(half_chord2);
+  if (ahead + half_chord < 0.0) return kInfinity;
+  return std::max(ahead - half_chord, 0.0);
+}
+
+double distanceTo(const TPoint2D& a, const TPoint2D& b, const TPoint2D& point) {
+  const TPoint2D edge = b - a, offset = point - a;
+  const double length2 = dot(edge, edge);
+  const double t = length2 > 0.0 ? std::clamp(dot(edge, offset) / length2, 0.0, 1.0) : 0.0;
+  return std::hypot(offset.x - t * edge.x, offset.y - t * edge.y);
+}
+
 }  // namespace
+
+void RoomChanges::check() const {
+  for (const Disc& disc : discs) {
+    requireInRange("discs.center.x", disc.center.x, -kFarthest, kFarthest);
+    requireInRange("discs.center.y", disc.center.y, -kFarthest, kFarthest);
+    requirePositive("discs.radius", disc.radius);
+  }
+  for (const MovedWall& wall : moved) {
+    requireInRange("moved.at.x", wall.at.x, -kFarthest, kFarthest);
+    requireInRange("moved.at.y", wall.at.y, -kFarthest, kFarthest);
+    requireInRange("moved.by.x", wall.by.x, -kFarthest, kFarthest);
+    requireInRange("moved.by.y", wall.by.y, -kFarthest, kFarthest);
+  }
+}
 
 WallSegments::WallSegments(const PolygonMap& map) {
   for (const Ring* ring : map.rings()) {
@@ -43,11 +77,29 @@ WallSegments::WallSegments(const PolygonMap& map) {
   }
 }
 
+WallSegments::WallSegments(const PolygonMap& map, const RoomChanges& changes) : WallSegments(map) {
+  changes.check();
+  discs_ = changes.discs;
+  const std::vector<Segment> before = segments_;
+  for (const RoomChanges::MovedWall& wall : changes.moved) {
+    const auto nearest =
+        std::min_element(before.begin(), before.end(), [&](const Segment& a, const Segment& b) {
+          return distanceTo(a.a, a.b, wall.at) < distanceTo(b.a, b.b, wall.at);
+        });
+    if (nearest == before.end()) break;
+    Segment& moved = segments_[static_cast<std::size_t>(nearest - before.begin())];
+    moved = {moved.a + wall.by, moved.b + wall.by};
+  }
+}
+
 double WallSegments::range(const TPoint2D& origin, double direction) const {
   const TPoint2D ray{std::cos(direction), std::sin(direction)};
   double nearest = kInfinity;
   for (const Segment& segment : segments_) {
     nearest = std::min(nearest, rangeTo(segment.a - origin, segment.b - origin, ray));
+  }
+  for (const RoomChanges::Disc& disc : discs_) {
+    nearest = std::min(nearest, rangeTo(disc.center - origin, disc.radius, ray));
   }
   return nearest;
 }
@@ -55,10 +107,11 @@ double WallSegments::range(const TPoint2D& origin, double direction) const {
 double WallSegments::distance(const TPoint2D& point) const {
   double nearest = kInfinity;
   for (const Segment& segment : segments_) {
-    const TPoint2D edge = segment.b - segment.a, offset = point - segment.a;
-    const double length2 = dot(edge, edge);
-    const double t = length2 > 0.0 ? std::clamp(dot(edge, offset) / length2, 0.0, 1.0) : 0.0;
-    nearest = std::min(nearest, std::hypot(offset.x - t * edge.x, offset.y - t * edge.y));
+    nearest = std::min(nearest, distanceTo(segment.a, segment.b, point));
+  }
+  for (const RoomChanges::Disc& disc : discs_) {
+    const TPoint2D offset = point - disc.center;
+    nearest = std::min(nearest, std::max(std::hypot(offset.x, offset.y) - disc.radius, 0.0));
   }
   return nearest;
 }
