@@ -28,6 +28,10 @@ case "${1-}" in
     if grep -qs '^VERSION_CODENAME=bookworm$' /etc/os-release; then
       packages+=(clang-format-14)
     fi
+    # Not on every architecture.
+    if apt-cache show chromium-driver > /dev/null 2>&1; then
+      packages+=(chromium chromium-driver)
+    fi
     ;;
   *)
     echo "usage: install-debian-packages.sh [tests]" >&2

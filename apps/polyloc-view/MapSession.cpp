@@ -2,11 +2,38 @@
 
 #include "ApiError.h"
 
+#include <tbb/task_scheduler_observer.h>
+
 #include <chrono>
 #include <exception>
+#include <sys/resource.h>
+#include <unistd.h>
 #include <utility>
 
 namespace mrpt_polyloc::apps {
+
+namespace {
+
+/// Threads that build the index leave the processor to those that answer.
+class LowPriority : public tbb::task_scheduler_observer {
+ public:
+  LowPriority() {
+    lower();
+    observe(true);
+  }
+  ~LowPriority() override { observe(false); }
+  void on_scheduler_entry(bool is_worker) override {
+    if (is_worker) lower();
+  }
+
+ private:
+  static void lower() {
+    constexpr int kNice = 5;
+    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);  // on Linux of the thread
+  }
+};
+
+}  // namespace
 
 MapSession::MapSession(PolygonMap map, std::string name)
     : map_(std::move(map)),
@@ -20,6 +47,7 @@ MapSession::~MapSession() {
 }
 
 void MapSession::buildIndex() {
+  const LowPriority low;
   MapIndex::Ptr index;
   std::string error;
   try {

@@ -70,7 +70,8 @@ void answer(httplib::Response& response, const std::function<Json()>& make) {
 }
 
 /// The body of a request, of at most so many bytes, whatever its header says of its length.
-std::string readBody(const httplib::Request& request, const httplib::ContentReader& read) {
+std::string readBody(const httplib::Request& request, const httplib::Response& response,
+                     const httplib::ContentReader& read) {
   const std::string type = request.get_header_value("Content-Type");
   if (type.substr(0, type.find(';')) != kJson) {
     throw ApiError(415, "not_json", "", "header Content-Type: application/json is asked for");
@@ -82,7 +83,7 @@ std::string readBody(const httplib::Request& request, const httplib::ContentRead
     if (!is_too_long) body.append(data, size);
     return !is_too_long;
   });
-  if (is_too_long) {
+  if (is_too_long || response.status == 413) {  // httplib's verdict on the stated length
     throw ApiError(413, "too_large", "",
                    "the body has more than " + std::to_string(ViewServer::kMostBytes) + " bytes");
   }
@@ -156,10 +157,10 @@ std::string whyNotBound(const std::string& address, int port) {
 
 }  // namespace
 
-ViewServer::ViewServer(const MapSession& session, const std::string& address)
+ViewServer::ViewServer(const Services& services, const std::string& address)
     : address_(address),
       guard_(address),
-      services_{session},
+      services_(services),
       jobs_(std::max(1U, std::thread::hardware_concurrency())),
       server_(std::make_unique<httplib::Server>()) {
   server_->new_task_queue = [] { return new httplib::ThreadPool(kConnections); };
@@ -169,9 +170,10 @@ ViewServer::ViewServer(const MapSession& session, const std::string& address)
   server_->set_keep_alive_max_count(100'000);
   server_->set_payload_max_length(kMostBytes);
   // Not httplib's default, which lets two servers share a port.
-  server_->set_socket_options([](auto socket) {
+  server_->set_socket_options([this](auto socket) {
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    listening_ = socket;
   });
   server_->set_pre_routing_handler([this](const auto& request, auto& response) {
     const auto refused =
@@ -236,18 +238,20 @@ void ViewServer::addAnswers() {
       return answerCells(services_, ticket);
     });
   });
+  server_->Get(root + "log", [this](const httplib::Request&, httplib::Response& response) {
+    answer(response, [this] { return answerLog(services_); });
+  });
   using Answer = Json (*)(const Services&, const RequestField&, Jobs::Ticket&);
-  const std::pair<const char*, Answer> answers[] = {{"localize", answerLocalize},
-                                                    {"simulate", answerSimulate},
-                                                    {"compare", answerCompare},
-                                                    {"view", answerView},
-                                                    {"leaf", answerLeaf}};
+  const std::pair<const char*, Answer> answers[] = {
+      {"localize", answerLocalize}, {"simulate", answerSimulate}, {"compare", answerCompare},
+      {"view", answerView},         {"leaf", answerLeaf},         {"scan", answerScan},
+      {"outcomes", answerOutcomes}};
   for (const auto& [name, give] : answers) {
     server_->Post(root + name,
                   [this, give = give](const httplib::Request& request, httplib::Response& response,
                                       const httplib::ContentReader& read) {
                     answer(response, [&] {
-                      const nlohmann::json body = parseBody(readBody(request, read));
+                      const nlohmann::json body = parseBody(readBody(request, response, read));
                       const RequestField field(body);
                       const auto job = field.find("job");
                       Jobs::Ticket ticket(jobs_, job ? job->text(64) : "");
@@ -265,6 +269,8 @@ int ViewServer::bind(int port) {
     throw std::runtime_error("cannot listen on " + address_ + ", port " + std::to_string(port) +
                              ": " + whyNotBound(address_, port));
   }
+  // Httplib lets five connections wait, and more of them at once are lost.
+  ::listen(listening_, static_cast<int>(kConnections));
   return bound;
 }
 

@@ -22,8 +22,8 @@ class ViewServer {
   static constexpr std::size_t kConnections = 128;
   static constexpr int kReadSeconds = 5;
 
-  /// Keeps the reference. \param address to listen on
-  ViewServer(const MapSession& session, const std::string& address);
+  /// Keeps the references. \param address to listen on
+  ViewServer(const Services& services, const std::string& address);
   ~ViewServer();
 
   /// Takes the port; 0: any that is free. \returns the port
@@ -43,6 +43,7 @@ class ViewServer {
   Services services_;
   Jobs jobs_;
   std::unique_ptr<httplib::Server> server_;
+  int listening_ = -1;  ///< socket of the server, which is its owner
 };
 
 }  // namespace mrpt_polyloc::apps

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Jobs.h"
+#include "LogSession.h"
 #include "MapSession.h"
 #include "RequestField.h"
 
@@ -15,6 +16,7 @@ constexpr int kApiVersion = 1;
 
 struct Services {
   const MapSession& session;
+  const LogSession* log = nullptr;  ///< if one is looked through
 };
 
 using Json = nlohmann::ordered_json;
@@ -42,5 +44,20 @@ Json answerView(const Services& services, const RequestField& request, Jobs::Tic
 
 /// The leaf of the search at a point, with its bands.
 Json answerLeaf(const Services& services, const RequestField& request, Jobs::Ticket& ticket);
+
+/// The log that is looked through: how many scans, and the way of its truth.
+Json answerLog(const Services& services);
+
+/// A scan of the log, and, if asked for, all poses that explain it.
+Json answerScan(const Services& services, const RequestField& request, Jobs::Ticket& ticket);
+
+/// What the answers to many scans of the log came to, for half a second's worth of them at most.
+Json answerOutcomes(const Services& services, const RequestField& request, Jobs::Ticket& ticket);
+
+/// \throws ApiError if there is none
+const LogSession& requireLog(const Services& services);
+
+/// {x, y, phi}
+Json poseJson(const mrpt::math::TPose2D& pose);
 
 }  // namespace mrpt_polyloc::apps

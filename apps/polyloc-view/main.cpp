@@ -2,18 +2,23 @@
 
 #include "../common/Cli.h"
 #include "../common/map_input.h"
+#include "../common/scan_input.h"
+#include "LogSession.h"
 #include "ViewServer.h"
 #include "page_files.h"
-#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/geometry/validation.h>
 #include <mrpt_polyloc/io/wkt.h>
 
 #include <csignal>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <pthread.h>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <utility>
 
 namespace {
 
@@ -32,6 +37,9 @@ std::string builtInMap() {
 struct ViewOptions {
   std::string map;
   double scale = 1.0;
+  std::string scans;
+  std::string truth;
+  ScanFileOptions file;
   std::uint64_t port = 8765;
   std::string listen = "127.0.0.1";
 };
@@ -41,6 +49,21 @@ void addOptions(CLI::App& cli, ViewOptions& options) {
       cli, "MAP", options.map, std::string(kMapFormats) + " [default: the niches map, built in]");
   addText(cli, "--map", options.map, "The same")->type_name("MAP")->excludes(positional);
   addScaleOption(cli, options.scale);
+  CLI::Option* const scans =
+      addText(cli, "--scans", options.scans,
+              "A log to look through: .rawlog or CARMEN .log/.clf, plain, gzip or zstd")
+          ->type_name("FILE");
+  addText(cli, "--truth", options.truth, "Where its scans were taken: TUM lines, matched by stamp")
+      ->type_name("FILE")
+      ->needs(scans);
+  addReadingOptions(cli, options.file);
+  addText(cli, "--sensor", options.file.sensor_label, "Only scans of the sensor of this label")
+      ->type_name("LABEL");
+  addNumber(
+      cli, "--laser-fov",
+      [&options](double degrees) { options.file.laser_fov = toRadians(degrees); },
+      {0.0, 360.0, true}, "Field of view of a CARMEN laser, where the log does not say it")
+      ->type_name("DEG");
   addCount(cli, "--port", options.port, 0, 65535, "Port to listen on; 0: any that is free [8765]")
       ->type_name("N");
   addText(cli, "--listen", options.listen,
@@ -54,6 +77,15 @@ PolygonMap loadServedMap(const Program& program, const ViewOptions& options) {
     return std::move(loadMapWithWarnings(program, options.map, options.scale).map);
   }
   return repairMap(parseWkt(builtInMap(), std::string(kBuiltInMap))).map;
+}
+
+/// Null if none is asked for.
+std::unique_ptr<const LogSession> openLog(const Program& program, const ViewOptions& options) {
+  if (options.scans.empty()) return nullptr;
+  Notes notes;
+  auto log = std::make_unique<const LogSession>(options.scans, options.file, options.truth, &notes);
+  program.note(options.scans, notes);
+  return log;
 }
 
 /// Ends the server on SIGINT and SIGTERM. These must be blocked in all threads.
@@ -93,8 +125,10 @@ int view(const Program& program, const ViewOptions& options) {
   const std::string name = options.map.empty()
                                ? std::string(kBuiltInMap)
                                : std::filesystem::path(options.map).filename().string();
-  const MapSession session(loadServedMap(program, options), name);
-  ViewServer server(session, address);
+  PolygonMap map = loadServedMap(program, options);
+  const std::unique_ptr<const LogSession> log = openLog(program, options);
+  const MapSession session(std::move(map), name);
+  ViewServer server({session, log.get()}, address);
   const int port = server.bind(static_cast<int>(options.port));
   const SignalWatch watch(signals, server);
   const std::string host = address.find(':') == std::string::npos ? address : "[" + address + "]";

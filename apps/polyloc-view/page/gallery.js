@@ -8,7 +8,7 @@ import { frameOf, hitPoints } from './geometry.js';
 const kMost = 6;
 
 export function drawGallery(box, scene, colour, choose) {
-  const hypotheses = scene.result?.hypotheses.slice(0, kMost) ?? [];
+  const hypotheses = (scene.scan && scene.result?.hypotheses.slice(0, kMost)) || [];
   while (box.children.length > hypotheses.length) box.lastChild.remove();
   hypotheses.forEach((h, i) => {
     if (!box.children[i]) {
@@ -41,13 +41,20 @@ function drawOne(canvas, scene, pose, colour, first) {
   drawArrow(pen, pose, 9 / camera.zoom, { fill: colour(first ? '--best' : '--rival') });
 }
 
+// What nearly all beams see: single far ones would make all else small.
 function boundsOf(points, pose) {
+  const ranges = [];
+  for (let i = 0; i < points.length; i += 2) ranges.push(Math.hypot(points[i] - pose.x, points[i + 1] - pose.y));
+  ranges.sort((a, b) => a - b);
+  const reach = 1.5 * (ranges[Math.floor(0.95 * ranges.length)] ?? 2);
   const box = [pose.x - 1, pose.y - 1, pose.x + 1, pose.y + 1];
   for (let i = 0; i < points.length; i += 2) {
-    box[0] = Math.min(box[0], points[i]);
-    box[1] = Math.min(box[1], points[i + 1]);
-    box[2] = Math.max(box[2], points[i]);
-    box[3] = Math.max(box[3], points[i + 1]);
+    const [x, y] = [points[i], points[i + 1]];
+    if (Math.hypot(x - pose.x, y - pose.y) > reach) continue;
+    box[0] = Math.min(box[0], x);
+    box[1] = Math.min(box[1], y);
+    box[2] = Math.max(box[2], x);
+    box[3] = Math.max(box[3], y);
   }
   return box;
 }

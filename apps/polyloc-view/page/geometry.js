@@ -20,8 +20,8 @@ function ends(scan, frame, keep) {
 
 export const hitPoints = (scan, frame) => ends(scan, frame, (kind) => kind === 'h');
 
-export function beamChains(scan, frame) {
-  const points = ends(scan, frame, (kind) => kind !== 'i');
+export function beamChains(scan, frame, wanted) {
+  const points = ends(scan, frame, (kind) => kind === wanted);
   const chains = [];
   for (let i = 0; i < points.length; i += 2) chains.push([frame.x, frame.y, points[i], points[i + 1]]);
   return chains;

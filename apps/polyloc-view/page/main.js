@@ -6,6 +6,7 @@ import { drawGallery } from './gallery.js';
 import { inside, radians, wrapped } from './geometry.js';
 import { Hand } from './hand.js';
 import { bindKeys, fillHelp } from './keys.js';
+import { LogPlayer } from './log.js';
 import { bindPanel, bindRadio, chooseTool, chosenTool, hint, showAnswer } from './panel.js';
 import { CanvasPen } from './pens.js';
 import { drawPolar } from './polar.js';
@@ -24,12 +25,15 @@ let wallDrag = null; // a wall that is being moved
 
 const pose = () => ({ x: state.x, y: state.y, phi: radians(state.deg) });
 
+// In a log the robot is where the answer says, not in the hand.
+const inLog = () => state.row >= 0 && player.count > 0;
+
 function scene() {
   const walls = unpack(state.walls);
   if (wallDrag) walls.push(wallDrag);
   return {
     map: data.map,
-    pose: pose(),
+    pose: inLog() ? null : pose(),
     scan: data.answer?.scan ?? null,
     polygon: data.answer?.polygon ?? null,
     result: data.answer?.result ?? null,
@@ -40,14 +44,22 @@ function scene() {
     cells: data.cells,
     changes: { discs: unpack(state.discs), walls },
     prior: priorOf(),
-    path: null,
+    path: player.count ? { truth: player.path, dots: player.dots(), here: inLog() ? data.answer?.truth : null } : null,
   };
+}
+
+// Where the switches look from: the hand, or the chosen answer to a scan of the log.
+function standpoint() {
+  return (inLog() && data.answer?.result?.hypotheses[state.sel]) || pose();
 }
 
 function priorOf() {
   const prior = {};
-  if (state.compass) prior.compass = { heading: radians(state.deg), tolerance: radians(state.ctol) };
-  if (state.near) prior.near = { x: state.x, y: state.y, radius: state.nearr };
+  // What a compass would say: the truth of the log, else what is set by hand.
+  const truth = inLog() && data.answer?.row === state.row ? data.answer.truth : null;
+  const at = truth ?? pose();
+  if (state.compass) prior.compass = { heading: at.phi, tolerance: radians(state.ctol) };
+  if (state.near) prior.near = { x: at.x, y: at.y, radius: state.nearr };
   return prior;
 }
 
@@ -55,6 +67,8 @@ function priorOf() {
 
 let isDrawAsked = false;
 function draw() {
+  $('polar-box').hidden = !shows('polar');
+  $('gallery').hidden = !shows('gallery');
   if (isDrawAsked) return;
   isDrawAsked = true;
   requestAnimationFrame(() => {
@@ -68,10 +82,9 @@ function draw() {
     const seen = scene();
     drawScene(new CanvasPen(context, camera), seen, shows, colour, camera.zoom);
     drawScaleBar(context, colour);
-    $('polar-box').hidden = !shows('polar');
+    if (data.map) stats.firstPicture ??= performance.now();
     if (shows('polar')) drawPolar($('polar'), $('polar-caption'), seen, colour, shows('bands'));
-    $('gallery').hidden = !shows('gallery') || !seen.scan;
-    if (!$('gallery').hidden) drawGallery($('gallery'), seen, colour, choose);
+    if (shows('gallery')) drawGallery($('gallery'), seen, colour, choose);
   });
 }
 
@@ -95,7 +108,7 @@ function resize() {
   [camera.width, camera.height] = [box.width, box.height];
   canvas.width = Math.round(box.width * ratio);
   canvas.height = Math.round(box.height * ratio);
-  if (was[0] <= 1 && data.map) fitOrRestore();
+  if (data.map && (was[0] <= 1 || isFitted)) fit();
   draw();
 }
 
@@ -124,14 +137,21 @@ async function needLevel(tolerance) {
 }
 
 function viewChanged() {
+  isFitted = false;
   if (data.map) needLevel(0.5 / camera.zoom);
   change({ cx: camera.cx, cy: camera.cy, zoom: camera.zoom });
   draw();
 }
 
+// Until somebody pans or zooms, the whole map stays in sight, however the window changes.
+let isFitted = true;
+
 function fit() {
-  camera.fit(data.map.bounds, Math.min(60, camera.width / 10));
-  viewChanged();
+  camera.fit(data.map.bounds, Math.min(64, camera.width / 12));
+  isFitted = true;
+  if (data.map) needLevel(0.5 / camera.zoom);
+  change({ cx: null, cy: null, zoom: null });
+  draw();
 }
 
 function fitOrRestore() {
@@ -172,11 +192,26 @@ function simulationOf() {
       discs: unpack(state.discs).map(([x, y, radius]) => ({ x, y, radius })),
       moved: unpack(state.walls).concat(wallDrag ? [wallDrag] : []).map(([x, y, dx, dy]) => ({ x, y, dx, dy })),
     },
-    search: {
-      prior: priorOf(),
-      options: { method: state.method, max_hypotheses: state.most, regions: shows('regions') && state.method === 'certified', time_budget_ms: 5000 },
-    },
+    search: searchOf(),
   };
+}
+
+function searchOf() {
+  return {
+    prior: priorOf(),
+    options: { method: state.method, max_hypotheses: state.most, regions: shows('regions') && state.method === 'certified', time_budget_ms: 5000 },
+  };
+}
+
+// The answer to the scan in the hand, or to the row of the log.
+async function question() {
+  if (!inLog()) return api.post('answer', 'simulate', simulationOf());
+  if (state.compass || state.near) {
+    // The prior asks for the truth of this row, which comes with it.
+    const { truth } = await api.post('row', 'scan', { row: state.row }) ?? {};
+    data.answer = { ...data.answer, row: state.row, truth };
+  }
+  return api.post('answer', 'scan', { row: state.row, search: searchOf() });
 }
 
 // One question at a time while answers come fast; a slow one is given up for the newer.
@@ -202,11 +237,12 @@ function ask() {
 }
 
 async function answerOnce() {
-  const answer = await api.post('answer', 'simulate', simulationOf());
+  const answer = await question();
   if (!answer) return;
   counted();
   found();
   data.answer = answer;
+  if (answer.row !== undefined) player.answered(answer);
   if (state.sel >= answer.result.hypotheses.length) change({ sel: 0 });
   showAnswer(answer.result, state.sel, choose);
   draw();
@@ -219,9 +255,9 @@ async function details() {
   if (shows('predicted') || shows('polar')) jobs.push(compare());
   else data.compare = null;
   if (shows('view') || shows('skeleton')) {
-    jobs.push(at('view', 'view', { x: state.x, y: state.y }));
+    jobs.push(at('view', 'view', standpoint()));
   }
-  if (shows('bands')) jobs.push(at('leaf', 'leaf', { x: state.x, y: state.y }));
+  if (shows('bands')) jobs.push(at('leaf', 'leaf', standpoint()));
   if ((shows('cells') || shows('segments')) && !data.cells) jobs.push(loadCells());
   await Promise.all(jobs);
   draw();
@@ -238,7 +274,7 @@ async function compare() {
 
 async function at(name, path, point) {
   try {
-    const answer = await api.post(name, path, point);
+    const answer = await api.post(name, path, { x: point.x, y: point.y });
     if (answer) data[name] = answer;
   } catch (error) {
     if (error.code !== 'not_free') throw error;
@@ -348,9 +384,9 @@ function dragWall(from, to, isDone) {
 }
 
 const act = {
-  pose: () => ({ x: state.x, y: state.y, deg: state.deg }),
-  move: (x, y) => change({ x, y }),
-  turn: (deg) => change({ deg }),
+  pose: () => (inLog() ? null : { x: state.x, y: state.y, deg: state.deg }),
+  move: (x, y) => !inLog() && change({ x, y }),
+  turn: (deg) => !inLog() && change({ deg }),
   pan: viewChanged,
   zoomed: viewChanged,
   drop,
@@ -359,8 +395,8 @@ const act = {
 };
 
 const keys = {
-  step: (dx, dy) => change({ x: state.x + dx, y: state.y + dy }),
-  turn: (deg) => change({ deg: wrapped(state.deg + deg) }),
+  step: (dx, dy) => !inLog() && change({ x: state.x + dx, y: state.y + dy }),
+  turn: (deg) => !inLog() && change({ deg: wrapped(state.deg + deg) }),
   pan: (dx, dy) => (camera.pan(dx, dy), viewChanged()),
   zoomIn: () => (camera.zoomAt(camera.width / 2, camera.height / 2, 1.25), viewChanged()),
   zoomOut: () => (camera.zoomAt(camera.width / 2, camera.height / 2, 0.8), viewChanged()),
@@ -369,7 +405,7 @@ const keys = {
   toggle,
   adopt: () => {
     const h = data.answer?.result?.hypotheses[state.sel];
-    if (h) change({ x: h.x, y: h.y, deg: wrapped((h.phi * 180) / Math.PI) });
+    if (h) change({ x: h.x, y: h.y, deg: wrapped((h.phi * 180) / Math.PI), row: -1 });
   },
   drop: () => drop(state.x + 0.8 * Math.cos(radians(state.deg)), state.y + 0.8 * Math.sin(radians(state.deg))),
   tidy,
@@ -386,16 +422,20 @@ const keys = {
   help: () => $('help').showModal(),
   saveSvg: () => offer('polyloc-view.svg', svgText(scene(), camera, shows, colours()), 'image/svg+xml'),
   savePng: () => canvas.toBlob((blob) => offer('polyloc-view.png', blob)),
-  play: () => {},
-  before: () => {},
-  next: () => {},
-  nextMiss: () => {},
-  leave: () => tour.end(),
+  play: () => player.toggle(),
+  before: () => player.step(-1),
+  next: () => player.step(1),
+  nextMiss: () => player.nextMiss().catch(failed),
+  leave: () => (tour.isOpen ? tour.end() : player.leave()),
 };
 
-const kScanKeys = ['x', 'y', 'deg', 'beams', 'fov', 'range', 'sigma', 'short', 'dropout', 'seed', 'compass', 'ctol', 'near', 'nearr', 'most', 'method', 'discs', 'walls'];
+const kScanKeys = ['x', 'y', 'deg', 'beams', 'fov', 'range', 'sigma', 'short', 'dropout', 'seed', 'compass', 'ctol', 'near', 'nearr', 'most', 'method', 'discs', 'walls', 'row'];
+// What an outcome in the log depends on.
+const kSearchKeys = ['compass', 'ctol', 'near', 'nearr', 'most', 'method'];
 
 onChange((changed) => {
+  if (changed.some((key) => kSearchKeys.includes(key))) player.forget();
+  if (changed.includes('row')) player.show();
   if (changed.some((key) => kScanKeys.includes(key))) ask();
   else if (changed.includes('show')) {
     const needsRegions = shows('regions') && !data.answer?.result?.regions;
@@ -408,9 +448,16 @@ onChange((changed) => {
   draw();
 });
 
+const player = new LogPlayer({
+  row: () => state.row,
+  setRow: (row) => change({ row, sel: 0 }),
+  search: searchOf,
+  hint: (words) => hint(words),
+});
+
 const tour = new Tour({
   set: (part) => {
-    change({ ...part, compass: false, near: false, discs: '', walls: '', short: 0, dropout: 0 });
+    change({ ...part, row: -1, compass: false, near: false, discs: '', walls: '', short: 0, dropout: 0 });
     fit();
   },
 });
@@ -430,7 +477,6 @@ async function begin() {
   fillHelp($('help'));
   bindKeys(keys);
   new Hand(canvas, camera, act);
-  if (innerWidth < 480) keys.panel();
   const buttons = {
     fit, theme: keys.theme, 'help-button': keys.help, 'panel-button': keys.panel, tidy,
     'tour-button': () => startTour(),
@@ -457,9 +503,12 @@ async function begin() {
   look();
   await firstMap();
   resize();
-  if (!fromAddress(location.hash).hasOwnProperty('x')) [state.x, state.y] = startingPlace(data.map);
+  await player.begin();
+  if (!Object.hasOwn(fromAddress(location.hash), 'x')) {
+    const [x, y] = startingPlace(data.map);
+    change({ x, y });
+  }
   fitOrRestore();
-  change({ x: state.x + 1e-9 }); // shows the fields
   ask();
   if (data.map.name === 'niches.wkt' && !Tour.wasSeen() && !location.hash) startTour();
 }
@@ -487,6 +536,6 @@ async function firstMap() {
 }
 
 // For tests and the curious: what is shown, in the console.
-globalThis.polyloc = { state, data, stats, camera, layers, change, isBusy: () => Boolean(asked) || isStale };
+globalThis.polyloc = { state, data, stats, camera, layers, change, look: viewChanged, isBusy: () => Boolean(asked) || isStale };
 
 begin();

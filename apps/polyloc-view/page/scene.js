@@ -74,8 +74,12 @@ function drawHypotheses(pen, scene, colour, scale) {
     const [a, b, angle] = ellipseOf(h.covariance);
     pen.ellipse(h.x, h.y, 3 * a, 3 * b, angle, { stroke: own, width: 1.2, fill: own, alpha: 0.18, strokeAlpha: 1 });
     const alpha = first ? 1 : 0.45 + 0.55 * Math.min(1, h.weight * 2);
-    drawArrow(pen, h, 13 / scale, { fill: own, alpha, stroke: i === scene.chosen ? colour('--ink') : colour('--free'), strokeAlpha: 1, width: i === scene.chosen ? 2.2 : 1 });
-    if (i < 12) pen.text(h.x, h.y, 14, 12, `${i + 1} · ${(100 * h.weight).toFixed(h.weight < 0.1 ? 1 : 0)} %`, { fill: own, size: 12, halo: colour('--free') });
+    // The robot in the hand stands on the right one: it must be seen around it.
+    const off = scene.pose ? Math.hypot(h.x - scene.pose.x, h.y - scene.pose.y) * scale : Infinity;
+    const size = off < 20 ? 30 : first ? 18 : 14;
+    const chosen = i === scene.chosen && hypotheses.length > 1;
+    drawArrow(pen, h, size / scale, { fill: own, alpha, stroke: colour(chosen ? '--ink' : '--free'), strokeAlpha: 1, width: chosen ? 1.5 : 1 });
+    if (i < 12 && (i === scene.chosen || h.weight >= 0.005)) pen.text(h.x, h.y, 20, 16, `${i + 1} · ${(100 * h.weight).toFixed(h.weight < 0.1 ? 1 : 0)} %`, { fill: own, size: 12, halo: colour('--free') });
   }
 }
 
@@ -88,7 +92,10 @@ export function ellipseOf(covariance) {
 
 function drawScan(pen, scan, pose, shows, colour, alpha = 1) {
   const frame = frameOf(scan, pose);
-  if (shows('beams')) pen.chains(beamChains(scan, frame), { stroke: colour('--scan'), width: 0.6, alpha: 0.35 * alpha });
+  if (shows('beams')) {
+    pen.chains(beamChains(scan, frame, 'h'), { stroke: colour('--scan'), width: 0.6, alpha: 0.35 * alpha });
+    pen.chains(beamChains(scan, frame, 'n'), { stroke: colour('--soft'), width: 0.5, alpha: 0.15 * alpha });
+  }
   if (shows('scan')) pen.dots(hitPoints(scan, frame), 2, { fill: colour('--scan'), alpha });
 }
 
