@@ -242,7 +242,8 @@ TEST(Simulator, OneScanIsOfTheWallsThatAreGiven) {
   const CObservation2DRangeScan scan = simulateScan(walls, clean(), pose, 1);
   ASSERT_EQ(scan.getScanSize(), 360U);
   for (std::size_t i = 0; i < 360; ++i) {
-    const double bearing = -0.5 * scan.aperture + i * scan.aperture / 359;
+    const double share = static_cast<double>(i) / 359 - 0.5;
+    const double bearing = share * static_cast<double>(scan.aperture);
     EXPECT_NEAR(scan.getScanRange(i), walls.range({pose.x, pose.y}, pose.phi + bearing), 1e-3);
   }
   SimulatorParams noisy;
