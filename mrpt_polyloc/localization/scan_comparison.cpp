@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace mrpt_polyloc {
 namespace {
@@ -48,9 +49,7 @@ ScanComparison compareWithMap(const MapIndex& index, const RangeScan& scan,
   const RangePredictor& predictor = index.parts().predictor();
   const TPose2D pose_map_beams = scan.beamFrameFromRobot(pose_map_robot);
   std::vector<double> bearings;
-  for (const Beam& beam : scan.beams()) {
-    bearings.push_back(std::isfinite(beam.bearing) ? beam.bearing : 0.0);
-  }
+  for (const Beam& beam : scan.beams()) bearings.push_back(beam.bearing);
   PredictedRanges ranges;
   predictor.predict(pose_map_beams, BeamPattern(bearings), ranges);
 
@@ -62,6 +61,9 @@ ScanComparison compareWithMap(const MapIndex& index, const RangeScan& scan,
   std::size_t informative = 0;
   for (std::size_t i = 0; i < scan.beams().size(); ++i) {
     const Beam& beam = scan.beams()[i];
+    if (beam.kind == BeamKind::invalid) {  // a scan does not keep where they look
+      comparison.wall[i] = comparison.open[i] = std::numeric_limits<float>::infinity();
+    }
     comparison.cost.push_back(cost(beam, comparison.wall[i], comparison.open[i]));
     if (beam.kind == BeamKind::invalid) continue;
     sum += comparison.cost.back();

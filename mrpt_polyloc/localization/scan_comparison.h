@@ -12,7 +12,8 @@
 namespace mrpt_polyloc {
 
 /// A scan held against what the map predicts for it at a pose. The lists have an entry for each
-/// beam of the scan, in its order; those of invalid beams are predicted, too, and cost nothing.
+/// beam of the scan, in its order; of invalid beams nothing is predicted (infinity), and they cost
+/// nothing.
 struct ScanComparison {
   std::vector<float> wall;  ///< range to the first wall [m]; infinity where there is none
   std::vector<float> open;  ///< range at which an open edge is crossed before it [m], or infinity

