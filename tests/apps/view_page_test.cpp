@@ -384,23 +384,33 @@ struct FixedState {
   const char* name;
   const char* state;
   bool dark;
+  bool of_demo;  ///< of MRPT's localization_demo, else of the niches map
 };
 
 /// The pictures of the documentation are those of these states; they are drawn anew with
 /// POLYLOC_NEW_PICTURES=1.
 TEST_F(ViewPage, LooksAsInTheDocumentation) {
-  const ViewProcess server({kNiches});
+  const std::string demo = "/usr/share/mrpt/datasets/localization_demo";
+  const ViewProcess niches({kNiches});
+  std::unique_ptr<ViewProcess> log;
+  if (std::filesystem::exists(demo + ".rawlog")) {
+    log = std::make_unique<ViewProcess>(
+        std::vector<std::string>{"--map", demo + ".simplemap.gz", "--scans", demo + ".rawlog",
+                                 "--truth", kSource + "/datasets/localization_demo_truth.tum"});
+  }
   const FixedState states[] = {
-      {"view_twins", "x=4.25&y=-3.25&deg=90&show=scan,beams,hypotheses,gallery", false},
+      {"view_twins", "x=4.25&y=-3.25&deg=90&show=scan,beams,hypotheses,gallery", false, false},
       {"view_cells", "x=11&y=1.6&deg=90&method=exact&show=hypotheses,cells,segments,view,skeleton",
-       false},
+       false, false},
       {"view_polar",
        "x=9&y=3&deg=60&sigma=5&discs=10.5,3.2,0.3&show=scan,predicted,hypotheses,polar", true},
-      {"view_bands", "x=7&y=2.4&deg=20&show=scan,hypotheses,regions,bands", true},
+      {"view_bands", "x=7&y=2.4&deg=20&show=scan,hypotheses,regions,bands", true, false},
+      {"view_log", "row=22&show=scan,hypotheses,polar", false, true},
   };
   for (const FixedState& fixed : states) {
+    if (fixed.of_demo && !log) continue;
     browser().emulate(1100, 700, fixed.dark);
-    open(server, fixed.state);
+    open(fixed.of_demo ? *log : niches, fixed.state);
     ASSERT_TRUE(
         browser().waitFor("(!polyloc.state.show.includes('cells') || polyloc.data.cells) && "
                           "(!polyloc.state.show.includes('skeleton') || polyloc.data.view) && "
