@@ -22,6 +22,8 @@ build-demo/bin/polyloc-localize --map "$data/localization_demo.simplemap.gz" \
 # Columns: row,stamp,status,rank,x,y,phi_deg,...: the first hypothesis of every scan.
 awk -F, '$4 == 1 { printf "scan %2d: %-9s %7.2f %7.2f %7.1f\n", $1, $3, $5, $6, $7 }' "$results"
 echo "picture: $PWD/demo.svg"
+echo "to look at it in a browser, http://127.0.0.1:8765/ : build-demo/bin/polyloc-view" \
+  "--map $data/localization_demo.simplemap.gz --scans $data/localization_demo.rawlog"
 awk -F, '
   NR > 1 { last = $1 }
   $4 == 1 { row = $1; pose = $5 " " $6 " " $7 }

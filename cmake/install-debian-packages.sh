@@ -11,12 +11,13 @@ packages=(
   libmrpt-maps-dev libmrpt-obs-dev libmrpt-img-dev libmrpt-io-dev libmrpt-slam-dev mrpt-common
   libcgal-dev libgmp-dev libmpfr-dev libboost-dev libeigen3-dev
   nlohmann-json3-dev libcli11-dev libtbb-dev libfftw3-dev zlib1g-dev
-  libpng-dev libyaml-cpp-dev libzstd-dev
+  libpng-dev libyaml-cpp-dev libzstd-dev libcpp-httplib-dev
 )
 case "${1-}" in
   "") ;;
   # mrpt-apps: programs that load this library; their windows open in xvfb, drawn by software. The
-  # slam library is for an example alone.
+  # slam library is for an example alone. chromium: the page of polyloc-view is tested in it; where
+  # it cannot be had, those tests are skipped by name.
   tests)
     packages+=(
       libgtest-dev libgmock-dev libbenchmark-dev libmrpt-slam-dev
@@ -26,6 +27,10 @@ case "${1-}" in
     # the test style.clang_format is skipped there.
     if grep -qs '^VERSION_CODENAME=bookworm$' /etc/os-release; then
       packages+=(clang-format-14)
+    fi
+    # Not on every architecture.
+    if apt-cache show chromium-driver > /dev/null 2>&1; then
+      packages+=(chromium chromium-driver)
     fi
     ;;
   *)

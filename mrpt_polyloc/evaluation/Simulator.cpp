@@ -98,6 +98,21 @@ mrpt::obs::CObservation2DRangeScan emptyObservation(const SimulatorParams& param
   return observation;
 }
 
+mrpt::obs::CObservation2DRangeScan observe(const WallSegments& walls, const SimulatorParams& params,
+                                           const mrpt::math::TPose2D& pose, double stamp,
+                                           Random& noise) {
+  std::vector<double> ranges;
+  for (const double bearing : bearingsOf(params)) {
+    ranges.push_back(walls.range({pose.x, pose.y}, pose.phi + bearing));
+  }
+  occlude(ranges, params, noise);
+  mrpt::obs::CObservation2DRangeScan observation = emptyObservation(params, stamp);
+  fillRanges(observation, ranges, params, noise);
+  return observation;
+}
+
+constexpr double kFirstStamp = 1e9;
+
 void require(bool holds, const std::string& message) {
   if (!holds) throw InvalidParamsError("SimulatorParams: " + message);
 }
@@ -132,10 +147,18 @@ mrpt::obs::CObservation2DRangeScan simulateScan(const ChangedWorld& world,
   return observation;
 }
 
+mrpt::obs::CObservation2DRangeScan simulateScan(const WallSegments& walls,
+                                                const SimulatorParams& params,
+                                                const mrpt::math::TPose2D& pose_map_robot,
+                                                std::uint64_t seed) {
+  params.check();
+  Random noise(seed);
+  return observe(walls, params, pose_map_robot, kFirstStamp, noise);
+}
+
 std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorParams& params,
                                          std::size_t count, std::uint64_t seed) {
   params.check();
-  constexpr double kFirstStamp = 1e9;
   const WallSegments walls(map);
   const ChangedWorld world(map, params.world, seed);
   const FreeSpaceSampler sampler(map);

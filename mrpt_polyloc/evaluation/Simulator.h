@@ -41,6 +41,13 @@ struct SimulatedScan {
   mrpt::obs::CObservation2DRangeScan observation;
 };
 
+/// One scan from a pose, which may lie anywhere, of the walls that the room has now. The sensor
+/// sits at the robot's origin. \throws InvalidParamsError
+mrpt::obs::CObservation2DRangeScan simulateScan(const WallSegments& walls,
+                                                const SimulatorParams& params,
+                                                const mrpt::math::TPose2D& pose_map_robot,
+                                                std::uint64_t seed);
+
 /// `count` scans at random poses: uniform over the free space (by area) that keeps the clearance,
 /// headings uniform. The sensor sits at the robot's origin; stamps are synthetic, 1e9 s + row.
 ///

@@ -15,6 +15,23 @@ struct WallSegment {
 /// not met.
 double rangeTo(const WallSegment& wall, const TPoint2D& origin, const TPoint2D& ray);
 
+/// How a room differs from its map.
+struct RoomChanges {
+  struct Disc {
+    TPoint2D center;  ///< [m]
+    double radius;    ///< [m]
+  };
+  struct MovedWall {
+    TPoint2D at;  ///< the edge of a wall nearest to this point is moved [m]
+    TPoint2D by;  ///< so far [m]; its neighbours stay, and gaps open between them
+  };
+  std::vector<Disc> discs;  ///< round things that stand in it
+  std::vector<MovedWall> moved;
+
+  /// \throws InvalidParamsError naming the bad field: not finite, or a radius not positive
+  void check() const;
+};
+
 /// All walls of a map as a bare list of segments, searched one by one in double.
 ///
 /// Slow and simple on purpose: simulated scans and tests need ranges that share nothing with the
@@ -22,16 +39,21 @@ double rangeTo(const WallSegment& wall, const TPoint2D& origin, const TPoint2D& 
 class WallSegments {
  public:
   explicit WallSegments(const PolygonMap& map);
+  /// The walls of the room as it is now. \throws InvalidParamsError
+  WallSegments(const PolygonMap& map, const RoomChanges& changes);
 
-  /// Range [m] from a point along a direction (angle in the map [rad]) to the first wall; infinity
-  /// if there is none. A wall's end points belong to it. O(number of walls).
+  /// Range [m] from a point along a direction (angle in the map [rad]) to the first wall or disc;
+  /// infinity if there is none. A wall's end points belong to it; within a disc the range is 0.
+  /// O(number of walls).
   double range(const TPoint2D& origin, double direction) const;
 
-  /// Distance [m] to the nearest wall; infinity if there is none. O(number of walls).
+  /// Distance [m] to the nearest wall or disc, 0 within one; infinity if there is none. O(number of
+  /// walls).
   double distance(const TPoint2D& point) const;
 
  private:
   std::vector<WallSegment> segments_;
+  std::vector<RoomChanges::Disc> discs_;
 };
 
 }  // namespace mrpt_polyloc

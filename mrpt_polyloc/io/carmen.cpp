@@ -3,6 +3,7 @@
 #include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/carmen.h>
 #include <mrpt_polyloc/io/carmen_line.h>
+#include <mrpt_polyloc/io/scan_stream.h>
 #include <mrpt_polyloc/io/sensor_labels.h>
 #include <mrpt_polyloc/io/sensor_survey.h>
 
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <utility>
 
 namespace mrpt_polyloc {
@@ -196,32 +198,61 @@ bool isFirstChoice(const std::string& keyword) {
   return keyword == "FLASER" || keyword == "ROBOTLASER1";
 }
 
-/// All that is read of a log.
+/// Reads a log once, giving its scans away as they come; what the whole log says of them is known
+/// in the end.
 class Reader {
  public:
-  Reader(const std::string& path, const ScanFileOptions& options)
-      : path_(path), options_(options) {}
+  Reader(std::string path, const ScanFileOptions& options)
+      : path_(std::move(path)), options_(options) {}
 
-  std::vector<LoggedScan> read(Notes* notes) {
+  void read(Notes* notes, const TakeLoggedScan& take) {
     using AtCut = GzInputStream::AtCut;
     GzInputStream stream(path_, options_.strict ? AtCut::refuse : AtCut::end);
     std::string cut = stream.cut(), text;
     for (std::size_t number = 1; stream.readLine(text); ++number) {
       CarmenLine line(path_, number, text);
       try {
-        add(line, number);
+        add(line, number, take);
       } catch (const FormatError&) {
         // Only the end of a file can be missing.
-        if (options_.strict || stream.lineHadEnd() || scans_.empty()) throw;
+        if (options_.strict || stream.lineHadEnd() || labels_.empty()) throw;
         if (cut.empty()) cut = "line " + std::to_string(number) + ": it ends inside the line";
       }
     }
     if (!cut.empty()) {
-      addNote(notes, "it is cut short (" + cut + "): the " + std::to_string(scans_.size()) +
+      addNote(notes, "it is cut short (" + cut + "): the " + std::to_string(labels_.size()) +
                          " scans before that are used (--strict refuses it)");
     }
-    for (std::size_t i = 0; i < scans_.size(); ++i) finish(numbers_[i], scans_[i]);
-    return std::move(scans_);
+  }
+
+  /// Those scans, by their numbers, that are of the sensor and do not only repeat others.
+  std::vector<std::size_t> rows() const {
+    const bool has_first_choice = std::any_of(labels_.begin(), labels_.end(), isFirstChoice);
+    std::vector<std::size_t> kept;
+    std::vector<std::string> labels;
+    for (std::size_t i = 0; i < labels_.size(); ++i) {
+      const bool is_repetition = has_first_choice && !isFirstChoice(labels_[i]) &&
+                                 !isAskedFor(labels_[i], options_.sensor_label);
+      if (is_repetition) continue;
+      kept.push_back(i);
+      labels.push_back(labels_[i]);
+    }
+    std::vector<std::size_t> rows;
+    for (const std::size_t i : selectSensor(path_, labels, options_.sensor_label)) {
+      rows.push_back(kept[i]);
+    }
+    return rows;
+  }
+
+  /// Takes in what the PARAM lines of the whole log say. \param number of the scan
+  void finish(std::size_t number, LoggedScan& scan) const {
+    const Kind kind = kindOf(scan.label);
+    if (kind == Kind::flaser) {
+      const CarmenLine line(path_, numbers_[number], scan.label);
+      finishFlaser(line, lasers_, options_.laser_fov, scan);
+    } else if (kind == Kind::raw_laser) {
+      place(scan.label.back() == '2', lasers_, scan);
+    }
   }
 
  private:
@@ -234,7 +265,7 @@ class Reader {
     return !has_first_choice_;
   }
 
-  void add(CarmenLine& line, std::size_t number) {
+  void add(CarmenLine& line, std::size_t number, const TakeLoggedScan& take) {
     const std::string& keyword = line.keyword();
     if (keyword == "PARAM") return readParam(line, lasers_);
     const Kind kind = kindOf(keyword);
@@ -244,55 +275,29 @@ class Reader {
                                                 : readRobotLaser(line);
     scan.label = keyword;
     scan.place = "line " + std::to_string(number);
-    scans_.push_back(std::move(scan));
+    labels_.push_back(keyword);
     numbers_.push_back(number);
+    take(std::move(scan));
   }
 
-  /// Takes in what the PARAM lines of the whole log say.
-  void finish(std::size_t number, LoggedScan& scan) const {
-    const Kind kind = kindOf(scan.label);
-    if (kind == Kind::flaser) {
-      finishFlaser(CarmenLine(path_, number, scan.label), lasers_, options_.laser_fov, scan);
-    } else if (kind == Kind::raw_laser) {
-      place(scan.label.back() == '2', lasers_, scan);
-    }
-  }
-
-  const std::string& path_;
-  const ScanFileOptions& options_;
+  std::string path_;
+  ScanFileOptions options_;
   Lasers lasers_;
   bool has_first_choice_ = false;
-  std::vector<LoggedScan> scans_;
+  std::vector<std::string> labels_;   ///< of the scans
   std::vector<std::size_t> numbers_;  ///< of their lines
 };
-
-/// Without those that only repeat others, unless they are asked for.
-std::vector<LoggedScan> withoutRepetitions(std::vector<LoggedScan> scans,
-                                           const std::string& wanted) {
-  const auto first = [](const LoggedScan& scan) { return isFirstChoice(scan.label); };
-  if (std::none_of(scans.begin(), scans.end(), first)) return scans;
-  scans.erase(std::remove_if(scans.begin(), scans.end(),
-                             [&](const LoggedScan& scan) {
-                               return !first(scan) && !isAskedFor(scan.label, wanted);
-                             }),
-              scans.end());
-  return scans;
-}
 
 }  // namespace
 
 std::vector<LoggedScan> loadLoggedCarmen(const std::string& path, const ScanFileOptions& options,
                                          Notes* notes) {
-  const auto& fov = options.laser_fov;
-  if (fov && !(*fov > 0.0 && *fov <= 2 * kPi + 1e-9)) {
-    throw InvalidParamsError("laser_fov is " + std::to_string(*fov) + ", not in (0, 2 pi]");
-  }
-  std::vector<LoggedScan> scans =
-      withoutRepetitions(Reader(path, options).read(notes), options.sensor_label);
-  std::vector<std::string> labels;
-  for (const LoggedScan& scan : scans) labels.push_back(scan.label);
+  std::vector<LoggedScan> scans;
+  const ScanStreamEnd end = streamCarmen(
+      path, options, notes, [&](LoggedScan scan) { scans.push_back(std::move(scan)); });
   std::vector<LoggedScan> selected;
-  for (const std::size_t i : selectSensor(path, labels, options.sensor_label)) {
+  for (const std::size_t i : end.rows) {
+    end.finish(i, scans[i]);
     selected.push_back(std::move(scans[i]));
   }
   return selected;
@@ -301,6 +306,18 @@ std::vector<LoggedScan> loadLoggedCarmen(const std::string& path, const ScanFile
 std::vector<RangeScan> loadCarmen(const std::string& path, const ScanFileOptions& options,
                                   Notes* notes) {
   return toRangeScans(path, loadLoggedCarmen(path, options, notes), options.readings, notes);
+}
+
+ScanStreamEnd streamCarmen(const std::string& path, const ScanFileOptions& options, Notes* notes,
+                           const TakeLoggedScan& take) {
+  const auto& fov = options.laser_fov;
+  if (fov && !(*fov > 0.0 && *fov <= 2 * kPi + 1e-9)) {
+    throw InvalidParamsError("laser_fov is " + std::to_string(*fov) + ", not in (0, 2 pi]");
+  }
+  const auto reader = std::make_shared<Reader>(path, options);
+  reader->read(notes, take);
+  return {reader->rows(),
+          [reader](std::size_t number, LoggedScan& scan) { reader->finish(number, scan); }};
 }
 
 }  // namespace mrpt_polyloc

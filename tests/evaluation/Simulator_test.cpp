@@ -234,6 +234,30 @@ TEST(Simulator, SameSeedSameScansAndPosesDoNotDependOnNoise) {
   }
 }
 
+TEST(Simulator, OneScanIsOfTheWallsThatAreGiven) {
+  RoomChanges changes;
+  changes.discs = {{{3.0, 1.0}, 0.2}};
+  const WallSegments walls(lRoom(), changes);
+  const mrpt::math::TPose2D pose(3.5, 0.4, 0.3);
+  const CObservation2DRangeScan scan = simulateScan(walls, clean(), pose, 1);
+  ASSERT_EQ(scan.getScanSize(), 360U);
+  for (std::size_t i = 0; i < 360; ++i) {
+    const double share = static_cast<double>(i) / 359 - 0.5;
+    const double bearing = share * static_cast<double>(scan.aperture);
+    EXPECT_NEAR(scan.getScanRange(i), walls.range({pose.x, pose.y}, pose.phi + bearing), 1e-3);
+  }
+  SimulatorParams noisy;
+  noisy.short_beams = 0.3;
+  const auto a = simulateScan(walls, noisy, pose, 5), b = simulateScan(walls, noisy, pose, 5);
+  const auto c = simulateScan(walls, noisy, pose, 6);
+  int changed = 0;
+  for (std::size_t i = 0; i < 360; ++i) {
+    EXPECT_EQ(a.getScanRange(i), b.getScanRange(i));
+    changed += a.getScanRange(i) != c.getScanRange(i) ? 1 : 0;
+  }
+  EXPECT_GT(changed, 300);
+}
+
 TEST(Simulator, RefusesBadParametersByName) {
   const auto expectRefused = [](const std::function<void(SimulatorParams&)>& spoil,
                                 const std::string& name) {

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/WallSegments.h>
 
 #include <gtest/gtest.h>
@@ -72,6 +73,39 @@ TEST(WallSegments, AgreesWithMarchingInAConvexRoom) {
     }
     EXPECT_NEAR(walls.range(origin, direction), marched, 2e-4) << "beam " << k;
   }
+}
+
+TEST(WallSegments, DiscsStandInTheWay) {
+  RoomChanges changes;
+  changes.discs = {{{3.0, 1.5}, 0.25}};
+  const WallSegments walls(room(), changes);
+  EXPECT_NEAR(walls.range({3.0, 0.5}, kPi / 2), 0.75, 1e-12);
+  EXPECT_NEAR(walls.range({3.0, 0.5}, -kPi / 2), 0.5, 1e-12);  // behind: the wall
+  // Past its rim by a hair, and just not.
+  EXPECT_NEAR(walls.range({3.251, 0.5}, kPi / 2), 2.5, 1e-12);
+  EXPECT_NEAR(walls.range({3.249, 0.5}, kPi / 2), 1.0 - std::sqrt(0.0625 - 0.249 * 0.249), 1e-9);
+  EXPECT_EQ(walls.range({3.1, 1.5}, 1.0), 0.0);  // from within
+  EXPECT_EQ(walls.distance({3.1, 1.5}), 0.0);
+  EXPECT_NEAR(walls.distance({3.0, 0.9}), 0.35, 1e-12);
+}
+
+TEST(WallSegments, AMovedWallIsTheNearestOne) {
+  RoomChanges changes;
+  changes.moved = {{{1.5, 2.9}, {0.0, -0.4}}};  // the upper wall
+  const WallSegments walls(room(), changes);
+  EXPECT_NEAR(walls.range({3.0, 0.5}, kPi / 2), 2.1, 1e-12);
+  EXPECT_NEAR(walls.range({3.0, 0.5}, -kPi / 2), 0.5, 1e-12);
+  EXPECT_NEAR(walls.range({0.5, 1.5}, 0.0), 0.5, 1e-12);  // the pillar stands where it stood
+}
+
+TEST(WallSegments, RefusesBadChanges) {
+  const auto refused = [](const RoomChanges& changes) {
+    EXPECT_THROW(WallSegments(room(), changes), InvalidParamsError);
+  };
+  refused({{{{1.0, 1.0}, 0.0}}, {}});
+  refused({{{{std::nan(""), 1.0}, 1.0}}, {}});
+  refused({{}, {{{1.0, kInfinity}, {0.0, 1.0}}}});
+  refused({{}, {{{1.0, 1.0}, {0.0, std::nan("")}}}});
 }
 
 }  // namespace

@@ -1,0 +1,56 @@
+// From scans to points of the map.
+
+// The beams' origin in the map, and the robot's heading.
+export function frameOf(scan, pose) {
+  const c = Math.cos(pose.phi), s = Math.sin(pose.phi);
+  const { x, y } = scan.sensor;
+  return { x: pose.x + c * x - s * y, y: pose.y + s * x + c * y, phi: pose.phi };
+}
+
+function ends(scan, frame, keep) {
+  const points = [];
+  const { bearings, ranges, kinds } = scan;
+  for (let i = 0; i < ranges.length; ++i) {
+    if (!keep(kinds[i])) continue;
+    const angle = frame.phi + bearings[i];
+    points.push(frame.x + ranges[i] * Math.cos(angle), frame.y + ranges[i] * Math.sin(angle));
+  }
+  return points;
+}
+
+export const hitPoints = (scan, frame) => ends(scan, frame, (kind) => kind === 'h');
+
+export function beamChains(scan, frame, wanted) {
+  const points = ends(scan, frame, (kind) => kind === wanted);
+  const chains = [];
+  for (let i = 0; i < points.length; i += 2) chains.push([frame.x, frame.y, points[i], points[i + 1]]);
+  return chains;
+}
+
+// Where the beams would end by the map.
+export function predictedChain(scan, frame, wall) {
+  const points = [];
+  for (let i = 0; i < wall.length; ++i) {
+    if (wall[i] === null) continue;
+    const angle = frame.phi + scan.bearings[i];
+    points.push(frame.x + wall[i] * Math.cos(angle), frame.y + wall[i] * Math.sin(angle));
+  }
+  return points;
+}
+
+export const radians = (degrees) => (degrees * Math.PI) / 180;
+export const degrees = (angle) => (angle * 180) / Math.PI;
+// In [-180, 180).
+export const wrapped = (deg) => ((((deg + 180) % 360) + 360) % 360) - 180;
+
+// Whether a point lies in rings of flat chains, by the even-odd rule.
+export function inside(rings, x, y) {
+  let is = false;
+  for (const ring of rings) {
+    for (let i = 0, j = ring.length - 2; i < ring.length; j = i, i += 2) {
+      const [xi, yi, xj, yj] = [ring[i], ring[i + 1], ring[j], ring[j + 1]];
+      if (yi > y !== yj > y && x < ((xj - xi) * (y - yi)) / (yj - yi) + xi) is = !is;
+    }
+  }
+  return is;
+}
