@@ -10,9 +10,9 @@ namespace mrpt_polyloc {
 
 BeamEvidence::BeamEvidence(const ScanCost& cost, const BeamEvidenceParams& params)
     : cost_(&cost), params_(params) {
-  using Square = std::pair<std::int64_t, std::int64_t>;
-  std::map<Square, std::size_t> held;  // points of each square
-  std::vector<Square> squares;
+  using Place = std::pair<std::int64_t, std::int64_t>;
+  std::map<Place, std::size_t> held;  // points of each square
+  std::vector<Place> squares;
   for (std::size_t i = 0; i < cost.beams().size(); ++i) {
     const Beam& beam = cost.beams()[i];
     if (beam.kind != BeamKind::hit) continue;
