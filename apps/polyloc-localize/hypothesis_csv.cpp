@@ -1,9 +1,9 @@
 #include "hypothesis_csv.h"
 
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/number_text.h>
 
 #include <cmath>
-#include <cstdio>
 
 namespace mrpt_polyloc::apps {
 namespace {
@@ -17,11 +17,9 @@ double rounded(double value, double decimals) {
 std::string poseColumns(const Hypothesis& hypothesis) {
   const auto& pose = hypothesis.pose_map_robot;
   const auto deviation = [&](int i) { return std::sqrt(hypothesis.covariance(i, i)); };
-  char text[240];
-  std::snprintf(text, sizeof text, "%.4f,%.4f,%.3f,%.6g,%.5f,%.4f,%.4f,%.3f", rounded(pose.x, 4),
-                rounded(pose.y, 4), rounded(toDegrees(pose.phi), 3), hypothesis.weight,
-                hypothesis.cost, deviation(0), deviation(1), toDegrees(deviation(2)));
-  return text;
+  return formatted("%.4f,%.4f,%.3f,%.6g,%.5f,%.4f,%.4f,%.3f", rounded(pose.x, 4),
+                   rounded(pose.y, 4), rounded(toDegrees(pose.phi), 3), hypothesis.weight,
+                   hypothesis.cost, deviation(0), deviation(1), toDegrees(deviation(2)));
 }
 
 }  // namespace
@@ -31,20 +29,15 @@ std::string hypothesisCsv(const std::vector<LocalizedScan>& scans) {
       "row,stamp,status,rank,x,y,phi_deg,weight,cost,std_x,std_y,std_phi_deg,ms,match,"
       "listed,cov_xy\n";
   for (const LocalizedScan& scan : scans) {
-    char stamp[40];
-    std::snprintf(stamp, sizeof stamp, "%.6f", scan.stamp);
     const std::string head =
-        std::to_string(scan.row) + "," + stamp + "," + toString(scan.result.status) + ",";
+        formatted("%zu,%.6f,%s,", scan.row, scan.stamp, toString(scan.result.status));
     const std::vector<Hypothesis>& hypotheses = scan.result.hypotheses;
-    char tail[120];
-    std::snprintf(tail, sizeof tail, ",%.3f,%.4f,%.6g,", scan.ms, scan.result.match_probability,
-                  scan.result.listed);
+    const std::string tail =
+        formatted(",%.3f,%.4f,%.6g,", scan.ms, scan.result.match_probability, scan.result.listed);
     if (hypotheses.empty()) csv += head + "0,,,,,,,," + tail + "\n";
     for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-      char covariance[40];
-      std::snprintf(covariance, sizeof covariance, "%.4g", hypotheses[i].covariance(0, 1));
-      csv += head + std::to_string(i + 1) + "," + poseColumns(hypotheses[i]) + tail + covariance +
-             "\n";
+      csv += head + std::to_string(i + 1) + "," + poseColumns(hypotheses[i]) + tail +
+             formatted("%.4g\n", hypotheses[i].covariance(0, 1));
     }
   }
   return csv;

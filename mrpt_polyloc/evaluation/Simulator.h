@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/evaluation/WallSegments.h>
 #include <mrpt_polyloc/evaluation/truth.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
@@ -13,7 +14,7 @@
 namespace mrpt_polyloc {
 
 /// The sensor, its noise, and what stands in its way that is not in the map.
-struct SimulatorParams {
+struct POLYLOC_EXPORT SimulatorParams {
   std::size_t beams = 360;  ///< one a degree: the usual small lidar
   /// Field of view, centred on the robot's heading [rad]. The whole circle: the beams divide it
   /// evenly and the first direction is not repeated; less: the outer beams lie on its rim.
@@ -44,7 +45,8 @@ struct SimulatedScan {
 /// the same scans, whatever the standard library; poses depend on seed, map and clearance only, so
 /// that noise can be compared at equal poses.
 /// \throws InvalidParamsError; InvalidMapError if no place that keeps the clearance was found.
-std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorParams& params,
-                                         std::size_t count, std::uint64_t seed);
+POLYLOC_EXPORT std::vector<SimulatedScan> simulateScans(const PolygonMap& map,
+                                                        const SimulatorParams& params,
+                                                        std::size_t count, std::uint64_t seed);
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
 #include <vector>
@@ -10,7 +11,7 @@ namespace mrpt_polyloc {
 ///
 /// Slow and simple on purpose: simulated scans and tests need ranges that share nothing with the
 /// search's own predictor. Open edges are left out (a beam passes them), walls beyond are in.
-class WallSegments {
+class POLYLOC_EXPORT WallSegments {
  public:
   explicit WallSegments(const PolygonMap& map);
 
