@@ -2,21 +2,98 @@
 # find_package(mrpt_polyloc) gives the target mrpt_polyloc::mrpt_polyloc.
 include(CMakePackageConfigHelpers)
 
+# A static library is linked with all that it uses.
+set(polyloc_has_static OFF)
+if(POLYLOC_INSTALL_STATIC OR NOT BUILD_SHARED_LIBS)
+  set(polyloc_has_static ON)
+endif()
+
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/mrpt_polyloc")
 
+set(polyloc_installed mrpt_polyloc)
+if(BUILD_SHARED_LIBS AND POLYLOC_INSTALL_STATIC)
+  list(APPEND polyloc_installed mrpt_polyloc_static)
+endif()
 install(
-  TARGETS mrpt_polyloc
+  TARGETS ${polyloc_installed}
   EXPORT mrpt_polylocTargets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-foreach(folder IN ITEMS base geometry visibility polar localization travel io mrpt_bridge evaluation)
-  install(
-    DIRECTORY "${PROJECT_SOURCE_DIR}/mrpt_polyloc/${folder}"
-    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/mrpt_polyloc"
-    FILES_MATCHING
-    PATTERN "*.h"
-    PATTERN "baselines" EXCLUDE) # no part of the library
+
+# The public interface: what a user includes, and what that reaches. The test package.consumer
+# compiles each of these by itself against the installed ones alone.
+set(POLYLOC_PUBLIC_HEADERS
+    base/BuildProgress.h
+    base/angles.h
+    base/errors.h
+    base/export.h
+    base/notes.h
+    geometry/BoundingBox.h
+    geometry/OccupancyBitmap.h
+    geometry/PolygonMap.h
+    geometry/Triangulation.h
+    geometry/bitmap_cleaning.h
+    geometry/tracing.h
+    geometry/validation.h
+    visibility/ViewExpander.h
+    visibility/VisibilityCells.h
+    visibility/VisibilitySkeleton.h
+    visibility/critical_segments.h
+    visibility/segment_arrangement.h
+    visibility/visibility_polygon.h
+    localization/CellLocalizer.h
+    localization/GlobalLocalizer.h
+    localization/GlobalLocalizerParams.h
+    localization/LocalizationResult.h
+    localization/MapIndex.h
+    localization/SearchOptions.h
+    localization/exact/ExactAnswers.h
+    localization/exact/ExactLocalizer.h
+    localization/exact/LimitedAnswers.h
+    localization/exact/LimitedRangeLocalizer.h
+    localization/exact/LimitedView.h
+    localization/exact/ObservedPolygon.h
+    localization/exact/SkeletonClasses.h
+    localization/exact/SkeletonLocalizer.h
+    localization/exact/clear_stretches.h
+    localization/nearest_cells/ScanViewParams.h
+    localization/ranking/Assessment.h
+    localization/ranking/Calibration.h
+    localization/ranking/Hypothesis.h
+    localization/ranking/HypothesisParams.h
+    localization/ranking/LocalizationStatus.h
+    localization/ranking/MatchFeatures.h
+    localization/scan/BeamEvidenceParams.h
+    localization/scan/PosePrior.h
+    localization/scan/PoseRefinerParams.h
+    localization/scan/RangeScan.h
+    localization/scan/RobustCostParams.h
+    localization/search/Certificate.h
+    localization/search/CertifiedSearchParams.h
+    localization/search/SearchMetric.h
+    io/bitmap_files.h
+    io/map_files.h
+    io/mrpt_compat.h
+    io/observation.h
+    io/polygon_files.h
+    io/readings.h
+    io/scan_files.h
+    io/sensor_survey.h
+    io/wkt.h
+    mrpt_bridge/CPolygonMap2D.h
+    mrpt_bridge/FilterMonitor.h
+    mrpt_bridge/FilterRecovery.h
+    mrpt_bridge/ParticleSeeder.h
+    mrpt_bridge/TLikelihoodOptions.h
+    mrpt_bridge/registration.h)
+foreach(header IN LISTS POLYLOC_PUBLIC_HEADERS)
+  get_filename_component(folder "${header}" DIRECTORY)
+  install(FILES "${PROJECT_SOURCE_DIR}/mrpt_polyloc/${header}"
+          DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/mrpt_polyloc/${folder}")
 endforeach()
+list(LENGTH POLYLOC_PUBLIC_HEADERS count)
+math(EXPR count "${count} + 1") # version.h
+set(POLYLOC_INSTALLED_HEADERS ${count} CACHE INTERNAL "Number of installed headers")
 install(FILES "${PROJECT_BINARY_DIR}/generated/mrpt_polyloc/version.h"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/mrpt_polyloc")
 install(FILES "${PROJECT_SOURCE_DIR}/package.xml" DESTINATION "${CMAKE_INSTALL_DATADIR}/mrpt_polyloc")

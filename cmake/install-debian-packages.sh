@@ -21,7 +21,7 @@ case "${1-}" in
   tests)
     packages+=(
       libgtest-dev libgmock-dev libbenchmark-dev libmrpt-slam-dev
-      mrpt-apps xvfb xdotool libgl1-mesa-dri parallel python3
+      mrpt-apps xvfb xdotool libgl1-mesa-dri parallel python3 locales
     )
     # The one version that the sources are formatted with. Later releases of Debian do not have it;
     # the test style.clang_format is skipped there.

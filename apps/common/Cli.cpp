@@ -1,10 +1,10 @@
 #include "Cli.h"
 
 #include "parsing.h"
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/version.h>
 
 #include <iostream>
-#include <sstream>
 #include <utility>
 
 namespace mrpt_polyloc::apps {
@@ -13,11 +13,7 @@ namespace {
 std::string describe(const NumberRange& range) {
   const NumberRange any;
   std::string text = "a finite number";
-  const auto number = [](double x) {
-    std::ostringstream out;
-    out << x;
-    return out.str();
-  };
+  const auto number = [](double x) { return formatted("%g", x); };
   if (range.min != any.min)
     text += (range.above_min ? " above " : " of at least ") + number(range.min);
   if (range.max != any.max) {
@@ -81,7 +77,7 @@ CLI::Option* addNumber(CLI::App& options, const std::string& flag,
   return options.add_option_function<std::string>(
       flag,
       [take, range, flag](const std::string& text) {
-        const auto number = parseNumber(text);
+        const auto number = parseFinite(text);
         if (!number || !inRange(*number, range)) {
           throw UsageError(flag + ": '" + text + "' is not " + describe(range));
         }

@@ -1,8 +1,9 @@
 #include "SvgCanvas.h"
 
+#include <mrpt_polyloc/base/number_text.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace mrpt_polyloc::apps {
@@ -14,9 +15,7 @@ constexpr double kFooter = 54.0;        // pixels, for scale bar and legend
 constexpr double kLeastWidth = 1080.0;  // pixels: room for the legend under a narrow map
 
 std::string number(double value, int decimals) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  std::string digits = text;
+  std::string digits = formatted("%.*f", decimals, value);
   if (digits.find('.') != std::string::npos) {
     digits.erase(digits.find_last_not_of('0') + 1);
     if (digits.back() == '.') digits.pop_back();
@@ -97,7 +96,7 @@ std::string styleSheet(double scale) {
 
 SvgCanvas::SvgCanvas(const BoundingBox& view, std::string unit)
     : view_(view), unit_(std::move(unit)) {
-  const double longest = std::max(view.max.x - view.min.x, view.max.y - view.min.y);
+  const double longest = std::max(view.width(), view.height());
   const double margin = kMargin * std::max(longest, 1.0);
   view_.min.x -= margin;
   view_.min.y -= margin;

@@ -1,8 +1,9 @@
 #include "map_picture.h"
 
+#include <mrpt_polyloc/base/number_text.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 namespace mrpt_polyloc::apps {
@@ -65,9 +66,7 @@ void drawArrow(SvgCanvas& canvas, const TPose2D& pose, double length_px, const s
 
 std::string rankAndWeight(std::size_t rank, double weight) {
   if (weight < 0.0005) return std::to_string(rank) + ": <0.1 %";
-  char text[40];
-  std::snprintf(text, sizeof text, "%zu: %.*f %%", rank, weight < 0.0995 ? 1 : 0, 100.0 * weight);
-  return text;
+  return formatted("%zu: %.*f %%", rank, weight < 0.0995 ? 1 : 0, 100.0 * weight);
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 
 #include "Cli.h"
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/number_text.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace mrpt_polyloc::apps {
@@ -26,7 +26,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 std::vector<double> parseNumbers(const std::string& text, std::size_t count) {
   std::vector<double> numbers;
   for (const std::string& part : split(text, ',')) {
-    const auto number = parseNumber(part);
+    const auto number = parseFinite(part);
     if (!number) return {};
     numbers.push_back(*number);
   }
@@ -35,20 +35,9 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count) {
 
 }  // namespace
 
-std::optional<double> parseNumber(const std::string& text) {
-  double number = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || stop != end || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
-
-std::optional<std::uint64_t> parseCount(const std::string& text) {
-  std::uint64_t count = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, count);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return count;
+std::optional<double> parseFinite(const std::string& text) {
+  const auto number = parseNumber(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 std::vector<RowRange> parseRows(const std::string& text) {

@@ -14,11 +14,8 @@
 
 namespace mrpt_polyloc::apps {
 
-/// The finite number a whole text is, if it is one. Decimal point whatever the locale.
-std::optional<double> parseNumber(const std::string& text);
-
-/// The decimal integer a whole text is, if it is one: digits only.
-std::optional<std::uint64_t> parseCount(const std::string& text);
+/// The finite number a whole text is, if it is one: parseNumber() for options.
+std::optional<double> parseFinite(const std::string& text);
 
 /// A row or an inclusive range of rows (0-based).
 struct RowRange {

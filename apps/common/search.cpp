@@ -3,6 +3,7 @@
 #include "OutputFiles.h"
 #include "Progress.h"
 #include "map_input.h"
+#include "memory_budget.h"
 #include "scan_input.h"
 #include "view_polygons.h"
 #include <mrpt_polyloc/base/Stopwatch.h>
@@ -12,6 +13,7 @@
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/MultiMapLocalizer.h>
 #include <mrpt_polyloc/localization/exact/ExactLocalizer.h>
+#include <mrpt_polyloc/localization/exact/LimitedRangeLocalizer.h>
 #include <mrpt_polyloc/localization/exact/SkeletonLocalizer.h>
 
 #include <tbb/parallel_for.h>
@@ -41,6 +43,8 @@ void checkMethod(const std::string& method) {
   throw UsageError("--method: unknown method '" + method + "'; there is: " + kMethods);
 }
 
+constexpr const char* kIndex = "index";
+constexpr const char* kTree = "tree";
 constexpr const char* kRobust = "robust";
 constexpr const char* kPolar = "polar";
 
@@ -48,6 +52,12 @@ constexpr const char* kPolar = "polar";
 void checkTogether(const SearchOptions& search) {
   if (search.cell_range && search.method != "cells") {
     throw UsageError("--range is that of visibility cells: it needs --method cells");
+  }
+  if (search.nearest != kIndex && search.method != "cells") {
+    throw UsageError("--nearest is of the views of visibility cells: it needs --method cells");
+  }
+  if (search.view_range && search.method != "exact") {
+    throw UsageError("--view-range is of polygons seen without noise: it needs --method exact");
   }
   if (search.method == "exact" && !search.calibration_file.empty()) {
     throw UsageError("--calibration is of scans with noise: it does not go with --method exact");
@@ -106,6 +116,7 @@ ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
   index_params.threads = static_cast<int>(search.threads);
   GlobalLocalizerParams params;
   params.hypotheses.calibration = calibrationOf(search);
+  requireMemory(search.map, map, index_params, search.max_memory);
   const MapIndex::Ptr index = makeIndex(std::move(map), search.index, index_params);
   const auto held = std::make_shared<const GlobalLocalizer>(index, params);
   ScanLocalizer localizer = shared(GlobalLocalizer(*held), search, index->bytes());
@@ -122,6 +133,7 @@ ScanLocalizer makeCells(PolygonMap map, const SearchOptions& search) {
   CellLocalizerParams params;
   params.threads = static_cast<int>(search.threads);
   params.range = search.cell_range;
+  if (search.nearest == kTree) params.nearest = NearestViews::tree;
   params.hypotheses.calibration = calibrationOf(search);
   CellLocalizer localizer(MapIndex::deferred(std::move(map), index_params), params);
   const std::size_t bytes = localizer.indexBytes();
@@ -141,7 +153,20 @@ ScanLocalizer exactLocalizer(const PolygonMap& map, std::size_t max_hypotheses) 
           {}};
 }
 
+/// What is seen up to a range: all of the polygons that is farther away is cut off first.
+ScanLocalizer limitedLocalizer(const PolygonMap& map, double range, std::size_t max_hypotheses) {
+  const auto localizer = std::make_shared<const LimitedRangeLocalizer>(map);
+  return {map,
+          [localizer, range, max_hypotheses](const RangeScan& scan, const PosePrior& prior) {
+            return resultOf(
+                localizer->localize(withinRange(viewPolygon(scan), range), prior.compass),
+                localizer->tolerance(), max_hypotheses);
+          },
+          localizer->bytes()};
+}
+
 ScanLocalizer makeExact(const PolygonMap& map, const SearchOptions& search, std::size_t scans) {
+  if (search.view_range) return limitedLocalizer(map, *search.view_range, search.max_hypotheses);
   return SkeletonLocalizer::pays(map, scans)
              ? exactLocalizer<SkeletonLocalizer>(map, search.max_hypotheses)
              : exactLocalizer<ExactLocalizer>(map, search.max_hypotheses);
@@ -182,6 +207,24 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
       "Range of the visibility cells of --method cells, m [default: the greatest that the budget "
       "of cells allows]")
       ->type_name("M");
+  options
+      .add_option_function<std::string>(
+          "--nearest",
+          [&search](const std::string& name) {
+            if (name != kIndex && name != kTree) {
+              throw UsageError("--nearest: unknown '" + name + "'; there is: index, tree");
+            }
+            search.nearest = name;
+          },
+          "How --method cells finds the nearest views: index [default], or tree, the bisector tree "
+          "of the paper, which is slower and finds the same")
+      ->type_name("NAME");
+  addNumber(
+      options, "--view-range", [&search](double range) { search.view_range = range; },
+      {0.0, 1e6, true},
+      "--method exact: sight ends at so many metres; of the polygons what is farther is cut off")
+      ->type_name("M");
+  addMemoryOption(options, search.max_memory);
   addCount(
       options, "--max-hypotheses", search.max_hypotheses, 1, kMostHypotheses,
       "At most so many hypotheses a scan [default: " + std::to_string(search.max_hypotheses) + "]")

@@ -26,8 +26,12 @@ struct SearchOptions {
   ScanFileOptions file;  ///< how they are read
   std::string method = "certified";
   std::optional<double> cell_range;  ///< of --method cells [m]
-  std::string index;                 ///< file to keep the certified search's index in; empty: none
-  double time_budget_ms = 0.0;       ///< of the certified search; 0: none
+  std::string nearest = "index";     ///< of --method cells: index or tree
+  std::optional<double> view_range;  ///< of --method exact: where sight ends [m]
+  std::optional<double>
+      max_memory;               ///< for the index of the certified search [MB], see requireMemory()
+  std::string index;            ///< file to keep the certified search's index in; empty: none
+  double time_budget_ms = 0.0;  ///< of the certified search; 0: none
   std::string search_metric = "robust";  ///< of the certified search
   std::uint64_t max_hypotheses = 20;
   /// Threads for the index, and for scans at once; 0 (not given): all cores for the index, and one
@@ -37,10 +41,9 @@ struct SearchOptions {
   Calibration calibration;
 };
 
-/// Adds --map, --scale, --scans, --max-range, --min-range, --strict, --method, --range,
-/// --max-hypotheses,
-/// --threads and --calibration.
-/// --range with another method than cells is a usage error.
+/// Adds --map, --scale, --max-memory, --scans, --max-range, --min-range, --strict, --method,
+/// --range, --nearest, --view-range, --max-hypotheses, --threads and --calibration. Those of one
+/// method alone are usage errors with another.
 void addSearchOptions(CLI::App& options, SearchOptions& search);
 
 /// What a method is to the programs: a map made ready, and one scan in, all poses out.
@@ -59,7 +62,8 @@ void addCertifiedOptions(CLI::App& options, SearchOptions& search);
 
 /// Prepares the search of `search.method` in a map, for so many scans: for `exact` with the map's
 /// skeletons where that pays. Reads `search.index` if it is there, else writes it.
-/// \throws FormatError naming the index or the calibration file; CellBudgetError
+/// \throws FormatError naming the index or the calibration file, or the map if it would take more
+/// memory than is allowed; CellBudgetError
 ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::size_t scans);
 
 /// What a method that searches several maps is to the programs: a scan set in, all poses out, and

@@ -1,14 +1,14 @@
 #include "view_polygons.h"
 
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/GzInputStream.h>
+#include <mrpt_polyloc/io/file_extension.h>
 #include <mrpt_polyloc/io/wkt.h>
 #include <mrpt_polyloc/localization/exact/ExactLocalizer.h>
 #include <mrpt_polyloc/localization/exact/ObservedPolygon.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 namespace mrpt_polyloc::apps {
 namespace {
@@ -46,15 +46,14 @@ std::vector<TPoint2D> parseLine(const std::string& line, std::size_t number,
 }  // namespace
 
 std::vector<RangeScan> loadViewPolygons(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw FormatError(path, "", "no such file");
-  if (std::filesystem::path(path).extension() != ".wkt") {
-    throw FormatError(path, "", "--method exact reads polygons: a .wkt file");
+  if (contentExtension(path) != ".wkt") {
+    throw FormatError(path, "",
+                      "--method exact reads polygons: a .wkt file, also with .gz or .zst");
   }
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) throw FormatError(path, "", "cannot be read");
+  GzInputStream file(path);
   std::vector<RangeScan> scans;
   std::string line;
-  for (std::size_t number = 1; std::getline(file, line); ++number) {
+  for (std::size_t number = 1; file.readLine(line); ++number) {
     if (line.find_first_not_of(" \t\r\v\f") == std::string::npos) continue;
     std::vector<Beam> beams;
     for (const TPoint2D& vertex : parseLine(line, number, path)) {

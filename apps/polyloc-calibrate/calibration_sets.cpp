@@ -2,10 +2,10 @@
 
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/truth.h>
+#include <mrpt_polyloc/io/GzInputStream.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace mrpt_polyloc::apps {
@@ -45,12 +45,11 @@ CalibrationSet loadSet(const Program& program, const std::vector<std::string>& w
 
 std::vector<CalibrationSet> loadCalibrationSets(const Program& program, const std::string& path,
                                                 const ScanFileOptions& file_options) {
-  std::ifstream file(path);
-  if (!file) throw FormatError(path, "", "no such file, or not readable");
+  GzInputStream file(path);
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   std::vector<CalibrationSet> sets;
   std::size_t number = 0;
-  for (std::string line; std::getline(file, line);) {
+  for (std::string line; file.readLine(line);) {
     ++number;
     const std::vector<std::string> words = wordsOf(line);
     if (words.empty()) continue;

@@ -1,9 +1,9 @@
 #include "curves.h"
 
 #include "../common/SvgCanvas.h"
+#include <mrpt_polyloc/base/number_text.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 
 namespace mrpt_polyloc::apps {
@@ -11,12 +11,6 @@ namespace {
 
 constexpr const char* kFitted = "path";
 constexpr const char* kCrossValidated = "best";
-
-std::string line(const char* format, double a, double b, double c) {
-  char text[120];
-  std::snprintf(text, sizeof text, format, a, b, c);
-  return text;
-}
 
 /// An empty chart of a square of percentages, with lines every `step`.
 SvgCanvas chart(const BoundingBox& view, int step, const std::string& across,
@@ -58,7 +52,7 @@ std::string rocCsv(const RocCurves& curves) {
   std::string text = "kind,threshold,lost,refused\n";
   const auto add = [&](const char* kind, const std::vector<RocPoint>& curve) {
     for (const RocPoint& point : curve) {
-      text += kind + line(",%.6g,%.6g,%.6g\n", point.threshold, point.lost, point.refused);
+      text += kind + formatted(",%.6g,%.6g,%.6g\n", point.threshold, point.lost, point.refused);
     }
   };
   add("fitted", curves.fitted);
@@ -70,8 +64,8 @@ std::string reliabilityCsv(const ReliabilityCurves& curves) {
   std::string text = "kind,from,to,count,stated,right\n";
   const auto add = [&](const char* kind, const std::vector<ReliabilityBin>& bins) {
     for (const ReliabilityBin& bin : bins) {
-      text += kind + line(",%g,%g,%g", bin.from, bin.to, static_cast<double>(bin.count));
-      text += bin.count == 0 ? ",," : line(",%.6g,%.6g", bin.stated, bin.true_share, 0.0);
+      text += kind + formatted(",%g,%g,%g", bin.from, bin.to, static_cast<double>(bin.count));
+      text += bin.count == 0 ? ",," : formatted(",%.6g,%.6g", bin.stated, bin.true_share);
       text += "\n";
     }
   };

@@ -2,17 +2,19 @@
 
 #include "../common/Cli.h"
 #include "../common/OutputFiles.h"
+#include "../common/map_input.h"
+#include "../common/memory_budget.h"
 #include "../common/scan_input.h"
 #include "calibration_sets.h"
 #include "curves.h"
 #include "sample_collection.h"
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/evaluation/CalibrationFit.h>
 #include <mrpt_polyloc/evaluation/calibration_files.h>
 
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -32,6 +34,8 @@ struct Options {
   std::uint64_t threads = 0;
   CalibrationFitParams fit;
   ScanFileOptions file;
+  double scale = 1.0;  ///< of all maps
+  std::optional<double> max_memory;
 };
 
 void addOptions(CLI::App& cli, Options& options) {
@@ -41,6 +45,8 @@ void addOptions(CLI::App& cli, Options& options) {
       ->required()
       ->type_name("DIR");
   addReadingOptions(cli, options.file);
+  addScaleOption(cli, options.scale);
+  addMemoryOption(cli, options.max_memory);
   addText(cli, "--header", options.header, "Write the constants as C++ too: default_calibration.h")
       ->type_name("FILE.h");
   addCount(cli, "--own", options.own, 1, kMost,
@@ -72,10 +78,9 @@ std::vector<std::string> originOf(const Options& options, const std::vector<Cali
   std::vector<std::string> lines = {"polyloc-calibrate SETS --own " + std::to_string(options.own) +
                                     " --cluttered " + std::to_string(options.cluttered) +
                                     " --foreign " + std::to_string(options.foreign)};
-  char rest[120];
-  std::snprintf(rest, sizeof rest, "  --lost %g --unique-right %g --clutter-weight %g, on the sets",
-                options.fit.lost, options.fit.unique_right, options.fit.clutter_weight);
-  lines.emplace_back(rest);
+  lines.push_back(formatted("  --lost %g --unique-right %g --clutter-weight %g, on the sets",
+                            options.fit.lost, options.fit.unique_right,
+                            options.fit.clutter_weight));
   for (const CalibrationSet& set : sets) {
     lines.push_back("  " + set.name.substr(0, 60) + " (" + std::to_string(set.scans.size()) +
                     " scans)");
@@ -84,9 +89,7 @@ std::vector<std::string> originOf(const Options& options, const std::vector<Cali
 }
 
 std::string percent(double share) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.1f %%", 100.0 * share);
-  return text;
+  return formatted("%.1f %%", 100.0 * share);
 }
 
 std::string ofWhole(std::size_t part, std::size_t whole) {
@@ -119,6 +122,8 @@ int calibrate(const Program& program, const Options& options) {
   SearchOptions search;
   search.max_hypotheses = 50;
   search.threads = options.threads;
+  search.scale = options.scale;
+  search.max_memory = options.max_memory;
   const std::vector<CalibrationSample> samples = collectSamples(
       program, sets, {options.own, options.cluttered, options.foreign}, std::move(search));
   Calibration calibration;

@@ -73,8 +73,9 @@ std::vector<CalibrationSample> collectSamples(const Program& program,
   search.calibration = uncalibrated();
   std::vector<CalibrationSample> samples;
   for (std::size_t map = 0; map < sets.size(); ++map) {
+    search.map = sets[map].map;
     const ScanLocalizer localizer =
-        makeLocalizer(loadMapWithWarnings(program, sets[map].map).map, search, 0);
+        makeLocalizer(loadMapWithWarnings(program, search.map, search.scale).map, search, 0);
     for (std::size_t i = 0; i < sets.size(); ++i) {
       const CalibrationSet& set = sets[i];
       const auto run = [&](ScanOrigin origin, std::vector<std::size_t> rows,

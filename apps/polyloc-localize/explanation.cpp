@@ -1,13 +1,13 @@
 #include "explanation.h"
 
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/io/bitmap_files.h>
 #include <mrpt_polyloc/io/map_files.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <vector>
 
@@ -28,9 +28,7 @@ constexpr double kManyPoorScans = 0.1;    // of the scans
 
 template <class... Values>
 std::string line(const char* format, Values... values) {
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return std::string("  ") + text.data() + "\n";
+  return "  " + formatted(format, values...) + "\n";
 }
 
 std::string listed(const char* head, const std::vector<std::string>& items) {

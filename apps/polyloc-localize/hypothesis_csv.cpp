@@ -1,9 +1,9 @@
 #include "hypothesis_csv.h"
 
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/number_text.h>
 
 #include <cmath>
-#include <cstdio>
 
 namespace mrpt_polyloc::apps {
 namespace {
@@ -25,11 +25,9 @@ std::string quoted(const std::string& text) {
 std::string poseColumns(const Hypothesis& hypothesis) {
   const auto& pose = hypothesis.pose_map_robot;
   const auto deviation = [&](int i) { return std::sqrt(hypothesis.covariance(i, i)); };
-  char text[240];
-  std::snprintf(text, sizeof text, "%.4f,%.4f,%.3f,%.6g,%.5f,%.4f,%.4f,%.3f", rounded(pose.x, 4),
-                rounded(pose.y, 4), rounded(toDegrees(pose.phi), 3), hypothesis.weight,
-                hypothesis.cost, deviation(0), deviation(1), toDegrees(deviation(2)));
-  return text;
+  return formatted("%.4f,%.4f,%.3f,%.6g,%.5f,%.4f,%.4f,%.3f", rounded(pose.x, 4),
+                   rounded(pose.y, 4), rounded(toDegrees(pose.phi), 3), hypothesis.weight,
+                   hypothesis.cost, deviation(0), deviation(1), toDegrees(deviation(2)));
 }
 
 }  // namespace
@@ -40,19 +38,15 @@ std::string hypothesisCsv(const std::vector<LocalizedScan>& scans, bool with_map
       "listed,cov_xy";
   csv += with_maps ? ",map\n" : "\n";
   for (const LocalizedScan& scan : scans) {
-    char stamp[40];
-    std::snprintf(stamp, sizeof stamp, "%.6f", scan.stamp);
     const std::string head =
-        std::to_string(scan.row) + "," + stamp + "," + toString(scan.result.status) + ",";
+        formatted("%zu,%.6f,%s,", scan.row, scan.stamp, toString(scan.result.status));
     const std::vector<Hypothesis>& hypotheses = scan.result.hypotheses;
-    char tail[120];
-    std::snprintf(tail, sizeof tail, ",%.3f,%.4f,%.6g,", scan.ms, scan.result.match_probability,
-                  scan.result.listed);
+    const std::string tail =
+        formatted(",%.3f,%.4f,%.6g,", scan.ms, scan.result.match_probability, scan.result.listed);
     if (hypotheses.empty()) csv += head + "0,,,,,,,," + tail + (with_maps ? ",\n" : "\n");
     for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-      char covariance[40];
-      std::snprintf(covariance, sizeof covariance, "%.4g", hypotheses[i].covariance(0, 1));
-      csv += head + std::to_string(i + 1) + "," + poseColumns(hypotheses[i]) + tail + covariance;
+      csv += head + std::to_string(i + 1) + "," + poseColumns(hypotheses[i]) + tail +
+             formatted("%.4g", hypotheses[i].covariance(0, 1));
       if (with_maps) csv += "," + quoted(scan.maps[i]);
       csv += "\n";
     }

@@ -72,6 +72,10 @@ int localize(const Program& program, const LocalizeOptions& options) {
     std::cout << explain(options);
     return kDone;
   }
+  if (options.search.view_range && options.prior.near) {
+    throw UsageError(
+        "--near does not go with --view-range: robots may be anywhere along a segment");
+  }
   for (const std::string& path : {options.output, options.svg, options.pf_ini}) {
     requireWritable(path);
   }

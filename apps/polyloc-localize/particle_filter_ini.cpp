@@ -1,10 +1,10 @@
 #include "particle_filter_ini.h"
 
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/number_text.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace mrpt_polyloc::apps {
 
@@ -16,9 +16,7 @@ std::string particleFilterIni(const Hypothesis& hypothesis) {
   const double dx = half(0, 0.25), dy = half(1, 0.25);
   const double phi = toDegrees(pose.phi);
   const double dphi = std::min(toDegrees(half(2, toRadians(5.0))), 180.0);
-  char text[700];
-  std::snprintf(
-      text, sizeof text,
+  return formatted(
       "# Start of the particles, found by polyloc-localize: robot at (%.3f, %.3f), %.2f deg.\n"
       "[LocalizationExperiment]\n"
       "# 1: uniform over the box, whatever the map\n"
@@ -31,7 +29,6 @@ std::string particleFilterIni(const Hypothesis& hypothesis) {
       "init_PDF_max_yaw_deg=%.3f\n",
       pose.x, pose.y, phi, pose.x - dx, pose.x + dx, pose.y - dy, pose.y + dy, phi - dphi,
       phi + dphi);
-  return text;
 }
 
 }  // namespace mrpt_polyloc::apps

@@ -11,14 +11,12 @@ namespace {
 /// fifth of its size is added on each side.
 BoundingBox viewOf(const PolygonMap& map, const std::vector<TPoint2D>& points) {
   BoundingBox view = map.boundingBox();
-  const double most = 0.2 * std::max(view.max.x - view.min.x, view.max.y - view.min.y);
+  const double most = 0.2 * std::max(view.width(), view.height());
   const BoundingBox limit{{view.min.x - most, view.min.y - most},
                           {view.max.x + most, view.max.y + most}};
   for (const TPoint2D& point : points) {
-    const double x = std::clamp(point.x, limit.min.x, limit.max.x);
-    const double y = std::clamp(point.y, limit.min.y, limit.max.y);
-    view.min = {std::min(view.min.x, x), std::min(view.min.y, y)};
-    view.max = {std::max(view.max.x, x), std::max(view.max.y, y)};
+    view.include({std::clamp(point.x, limit.min.x, limit.max.x),
+                  std::clamp(point.y, limit.min.y, limit.max.y)});
   }
   return view;
 }

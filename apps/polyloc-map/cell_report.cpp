@@ -1,6 +1,7 @@
 #include "cell_report.h"
 
-#include <cstdio>
+#include <mrpt_polyloc/base/number_text.h>
+
 #include <vector>
 
 namespace mrpt_polyloc::apps {
@@ -20,13 +21,11 @@ nlohmann::ordered_json jsonReport(const CellReport& report) {
 }
 
 std::string textReport(const CellReport& report) {
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "cells         %zu, from %zu windows\n"
-                "cells took    %.3f s, keep %.2f MB\n",
-                report.cells.size(), report.cells.criticalSegments().segments.size(),
-                report.build_s, megabytes(report));
-  return text;
+  return formatted(
+      "cells         %zu, from %zu windows\n"
+      "cells took    %.3f s, keep %.2f MB\n",
+      report.cells.size(), report.cells.criticalSegments().segments.size(), report.build_s,
+      megabytes(report));
 }
 
 void drawCells(SvgCanvas& canvas, const CellReport& report) {

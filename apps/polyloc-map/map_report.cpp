@@ -1,10 +1,9 @@
 #include "map_report.h"
 
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/evaluation/summary_json.h>
 #include <mrpt_polyloc/io/polygon_files.h>
-
-#include <cstdio>
 
 namespace mrpt_polyloc::apps {
 namespace {
@@ -54,17 +53,14 @@ std::string defectList(const std::vector<Defect>& defects) {
 }
 
 std::string textReport(const PolygonMap& map) {
-  char text[400];
-  std::snprintf(text, sizeof text,
-                "vertices      %zu (%zu reflex)\n"
-                "components    %zu, holes %zu\n"
-                "area          %.2f m2\n"
-                "perimeter     %.2f m, of which open %.2f m\n"
-                "walls beyond  %.2f m\n",
-                map.vertexCount(), map.reflexVertexCount(), map.components().size(),
-                map.holeCount(), map.area(), map.perimeter(), map.openPerimeter(),
-                map.wallsBeyondLength());
-  return text;
+  return formatted(
+      "vertices      %zu (%zu reflex)\n"
+      "components    %zu, holes %zu\n"
+      "area          %.2f m2\n"
+      "perimeter     %.2f m, of which open %.2f m\n"
+      "walls beyond  %.2f m\n",
+      map.vertexCount(), map.reflexVertexCount(), map.components().size(), map.holeCount(),
+      map.area(), map.perimeter(), map.openPerimeter(), map.wallsBeyondLength());
 }
 
 }  // namespace mrpt_polyloc::apps

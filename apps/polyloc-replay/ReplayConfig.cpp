@@ -1,30 +1,22 @@
 #include "ReplayConfig.h"
 
 #include "../common/parsing.h"
-#include "ini_section.h"
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/base/params_check.h>
+#include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/mrpt_archive.h>
-#include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
+#include <mrpt_polyloc/mrpt_bridge/IniSection.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 
 namespace mrpt_polyloc::replay {
 namespace {
 
 namespace fs = std::filesystem;
 using mrpt::config::CConfigFileMemory;
-
-std::string readText(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || fs::is_directory(path)) throw FormatError(path, "", "cannot be read");
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 /// Beside the ini if there is such a file, else as it is.
 std::string resolved(const std::string& ini, const std::string& path) {
@@ -183,6 +175,7 @@ void readRecovery(IniSection& section, ReplayConfig& config) {
 void readPolyloc(ReplayConfig& config) {
   IniSection section(config.text, "polyloc",
                      {"map",
+                      "scale",
                       "sensor",
                       "max_range",
                       "min_range",
@@ -207,6 +200,7 @@ void readPolyloc(ReplayConfig& config) {
                       "carried",
                       "report_steps"});
   config.search_map = resolved(config.path, section.text("map", ""));
+  config.scale = section.number("scale", 1.0, 1e-6, 1e6);
   config.scans.sensor_label = section.text("sensor", "");
   if (!section.text("max_range", "").empty()) {
     config.scans.readings.max_range = section.number("max_range", 0, 0, 1e6);
@@ -259,7 +253,7 @@ Init parseInit(const std::string& text) {
 ReplayConfig loadReplayConfig(const std::string& path) {
   ReplayConfig config;
   config.path = path;
-  config.text.setContent(readText(path));
+  config.text.setContent(GzInputStream(path).readAll());
   resolveMapFiles(path, config.text);
   try {
     readExperiment(config);

@@ -53,7 +53,8 @@ struct ReplayConfig {
   OdometryNoise odometry;
 
   // [polyloc]
-  std::string search_map;  ///< or empty: see polygonMapFor()
+  std::string search_map;  ///< or empty: see loadReplayMaps()
+  double scale = 1.0;      ///< metres per unit of search_map
   ScanFileOptions scans;   ///< sensor, max_range, min_range
   Init init = Init::polyloc;
   GlobalLocalizerParams search;

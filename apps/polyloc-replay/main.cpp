@@ -3,6 +3,7 @@
 #include "../common/Cli.h"
 #include "../common/OutputFiles.h"
 #include "../common/Progress.h"
+#include "../common/memory_budget.h"
 #include "../common/scan_input.h"
 #include "FilterRun.h"
 #include "ReplayConfig.h"
@@ -13,6 +14,7 @@
 #include "replay_statistics.h"
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/evaluation/truth.h>
 #include <mrpt_polyloc/mrpt_bridge/registration.h>
 
@@ -38,6 +40,7 @@ struct Options {
   std::uint64_t repetitions = 0;  // 0: as the ini says
   std::uint64_t seed = 1;
   ScanFileOptions scans;  // readings: as the ini says where not given
+  std::optional<double> scale, max_memory;
 };
 
 void addOptions(CLI::App& cli, Options& options) {
@@ -47,6 +50,11 @@ void addOptions(CLI::App& cli, Options& options) {
   addText(cli, "--rawlog", options.rawlog, "The rawlog [default: rawlog_file of the ini]")
       ->type_name("FILE");
   addReadingOptions(cli, options.scans);
+  addNumber(
+      cli, "--scale", [&options](double scale) { options.scale = scale; }, {0.0, 1e6, true},
+      "Metres per unit of the search's map [default: scale of the ini, or 1]")
+      ->type_name("F");
+  addMemoryOption(cli, options.max_memory);
   addText(
       cli, "--sensor", options.scans.sensor_label,
       "The laser that is searched for and judged; of several the tracker takes all that a frame "
@@ -96,6 +104,7 @@ ReplayConfig loadConfig(const Program& program, const Options& options) {
   if (readings.min_range) config.scans.readings.min_range = readings.min_range;
   config.scans.strict = options.scans.strict;
   if (!options.scans.sensor_label.empty()) config.scans.sensor_label = options.scans.sensor_label;
+  if (options.scale) config.scale = *options.scale;
   if (!options.truth.empty()) config.truth_file = options.truth;
   if (!options.init.empty()) config.init = parseInit(options.init);
   if (options.repetitions > 0) config.repetitions = options.repetitions;
@@ -126,8 +135,7 @@ void addScenes(OutputFiles& files, const std::filesystem::path& folder, const Re
   makeFolder(folder / "3D");
   const auto every = static_cast<std::size_t>(config.scene_frequency);
   for (std::size_t k = every - 1; k < run.steps.size(); k += every) {
-    char name[40];
-    std::snprintf(name, sizeof name, "step_%05zu.3Dscene", run.steps[k].step);
+    const std::string name = formatted("step_%05zu.3Dscene", run.steps[k].step);
     writeScene(files.stage(folder / "3D" / name), map, run, k, truth);
   }
 }
@@ -151,7 +159,7 @@ int replayLog(const Program& program, const Options& options) {
   const Truth truth =
       config.truth_file.empty() ? Truth() : loadTruthOfSteps(config.truth_file, steps);
   const std::vector<std::size_t> replayed = replayedSteps(config, steps.size());
-  const ReplayMaps maps = loadReplayMaps(config);
+  const ReplayMaps maps = loadReplayMaps(config, options.max_memory);
   const std::filesystem::path folder = options.folder;
   makeFolder(options.folder);
   requireWritable(folder / "summary.json");

@@ -1,5 +1,6 @@
 #include "replay_maps.h"
 
+#include "../common/memory_budget.h"
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/map_files.h>
@@ -14,6 +15,8 @@
 
 namespace mrpt_polyloc::replay {
 namespace {
+
+using apps::requireMemory;
 
 using mrpt::maps::CMultiMetricMap;
 
@@ -81,9 +84,17 @@ CMultiMetricMap::Ptr loadMetricMap(const ReplayConfig& config) {
   return map;
 }
 
+/// A map to search in: its index must fit.
+PolygonMap polygonsFor(const std::string& path, double scale,
+                       const std::optional<double>& max_memory) {
+  PolygonMap map = loadMap(path, {}, nullptr, scale).map;
+  requireMemory(path, map, {}, max_memory);
+  return map;
+}
+
 }  // namespace
 
-ReplayMaps loadReplayMaps(const ReplayConfig& config) {
+ReplayMaps loadReplayMaps(const ReplayConfig& config, const std::optional<double>& max_memory) {
   ReplayMaps maps;
   maps.metric = loadMetricMap(config);
   for (const auto& map : maps.metric->maps) {
@@ -96,11 +107,12 @@ ReplayMaps loadReplayMaps(const ReplayConfig& config) {
   }
   const auto own = maps.metric->mapByClass<CPolygonMap2D>();
   if (!config.search_map.empty()) {
-    maps.polygons = CPolygonMap2D(loadMap(config.search_map).map);
+    maps.polygons = CPolygonMap2D(polygonsFor(config.search_map, config.scale, max_memory));
   } else if (own) {
     maps.polygons = *own;
+    requireMemory(config.path, *own->map(), {}, max_memory);
   } else if (!config.map_file.empty()) {
-    maps.polygons = CPolygonMap2D(loadMap(config.map_file).map);
+    maps.polygons = CPolygonMap2D(polygonsFor(config.map_file, 1.0, max_memory));
   } else {
     throw FormatError(config.path, "[polyloc]",
                       "no map to search in: give 'map', a polygonMap2D, or a map_file");

@@ -5,6 +5,7 @@
 
 #include <mrpt/maps/CMultiMetricMap.h>
 
+#include <optional>
 #include <string>
 
 namespace mrpt_polyloc::replay {
@@ -19,7 +20,8 @@ struct ReplayMaps {
 /// Makes both. The polygons are those of [polyloc] map, else of the first polygonMap2D, else of
 /// the map_file of [LocalizationExperiment].
 /// \throws FormatError naming ini or map file: a map that misses or is broken, a class of maps that
-/// is not known, no map at all
-ReplayMaps loadReplayMaps(const ReplayConfig& config);
+/// is not known, no map at all, one of which the index would take more than max_memory [MB] (see
+/// requireMemory())
+ReplayMaps loadReplayMaps(const ReplayConfig& config, const std::optional<double>& max_memory = {});
 
 }  // namespace mrpt_polyloc::replay

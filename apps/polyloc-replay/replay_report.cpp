@@ -2,8 +2,8 @@
 
 #include "../common/SvgCanvas.h"
 #include "../common/map_picture.h"
+#include <mrpt_polyloc/base/number_text.h>
 
-#include <cstdio>
 #include <vector>
 
 namespace mrpt_polyloc::replay {
@@ -71,14 +71,9 @@ std::string cloudPicture(const PolygonMap& map, const StepRecord& step, const Tr
 }
 
 std::string caption(const StepRecord& step, const Truth& truth) {
-  char text[160];
-  std::snprintf(text, sizeof text, "Step %zu: %zu particles, mean (%.2f, %.2f)", step.step,
-                step.cloud.size(), step.estimate.x, step.estimate.y);
-  std::string line = text;
-  if (const auto error = errorOf(step, truth)) {
-    std::snprintf(text, sizeof text, ", off by %.2f m", error->m);
-    line += text;
-  }
+  std::string line = formatted("Step %zu: %zu particles, mean (%.2f, %.2f)", step.step,
+                               step.cloud.size(), step.estimate.x, step.estimate.y);
+  if (const auto error = errorOf(step, truth)) line += formatted(", off by %.2f m", error->m);
   return line;
 }
 

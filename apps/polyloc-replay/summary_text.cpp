@@ -1,10 +1,10 @@
 #include "replay_statistics.h"
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/number_text.h>
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
 namespace mrpt_polyloc::replay {
@@ -84,10 +84,7 @@ Json perRun(const RunRecord& run, const RunScore& score, bool has_truth) {
 }
 
 std::string format(const char* pattern, double value) {
-  if (!std::isfinite(value)) return "none";
-  char text[64];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
+  return std::isfinite(value) ? formatted(pattern, value) : "none";
 }
 
 }  // namespace
@@ -202,15 +199,13 @@ std::string stepsCsv(const std::vector<RunRecord>& runs, const Truth& truth) {
       "ms\n";
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (const StepRecord& step : runs[i].steps) {
-      char line[320];
       const auto spread = [&step](int axis) {
         return std::sqrt(std::max(0.0, step.covariance(axis, axis)));
       };
-      std::snprintf(line, sizeof line, "%zu,%u,%zu,%.6f,%.4f,%.4f,%.3f,%.4f,%.4f,%.3f,%zu,", i,
-                    runs[i].seed, step.step, step.stamp, step.estimate.x, step.estimate.y,
-                    toDegrees(step.estimate.phi), spread(0), spread(1), toDegrees(spread(2)),
-                    step.particles);
-      text += line;
+      text += formatted("%zu,%u,%zu,%.6f,%.4f,%.4f,%.3f,%.4f,%.4f,%.3f,%zu,", i, runs[i].seed,
+                        step.step, step.stamp, step.estimate.x, step.estimate.y,
+                        toDegrees(step.estimate.phi), spread(0), spread(1), toDegrees(spread(2)),
+                        step.particles);
       text += step.fit ? format("%.4f", *step.fit) : "";
       text += std::string(",") + (step.health ? healthName(*step.health) : "");
       text += std::string(",") + (step.search ? mrpt_polyloc::toString(*step.search) : "");
@@ -220,9 +215,8 @@ std::string stepsCsv(const std::vector<RunRecord>& runs, const Truth& truth) {
       const auto error = errorOf(step, truth);
       text += "," + (error ? format("%.4f", error->m) : "");
       text += "," + (error ? format("%.3f", toDegrees(error->rad)) : "");
-      std::snprintf(line, sizeof line, ",%.3f,%.3f,%.3f,%.3f\n", step.filter_ms, step.filter_cpu_ms,
-                    step.search_ms, step.monitor_ms);
-      text += line;
+      text += formatted(",%.3f,%.3f,%.3f,%.3f\n", step.filter_ms, step.filter_cpu_ms,
+                        step.search_ms, step.monitor_ms);
     }
   }
   return text;

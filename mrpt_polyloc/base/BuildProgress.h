@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -13,7 +15,7 @@ namespace mrpt_polyloc {
 using ProgressFunction = std::function<bool(double share)>;
 
 /// A work that was given up, as its caller asked.
-class CancelledError : public std::runtime_error {
+class POLYLOC_EXPORT CancelledError : public std::runtime_error {
  public:
   CancelledError() : std::runtime_error("cancelled") {}
 };

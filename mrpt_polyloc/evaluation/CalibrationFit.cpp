@@ -2,8 +2,11 @@
 #include <mrpt_polyloc/evaluation/CalibrationFit.h>
 #include <mrpt_polyloc/evaluation/LogisticRegression.h>
 
+#include <boost/math/tools/minima.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 namespace mrpt_polyloc {
@@ -74,29 +77,14 @@ double weightLoss(const Samples& samples, double decay) {
   return loss;
 }
 
-/// By golden section over the logarithm of the decay.
+/// By Brent's method over the logarithm of the decay.
 double fitDecay(const Samples& samples) {
-  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
-  double low = std::log(0.05), high = std::log(50.0);
+  constexpr int kBits = 20;  // of the place: more than the samples tell
+  std::uintmax_t steps = 100;
   const auto loss = [&](double at) { return weightLoss(samples, std::exp(at)); };
-  double a = high - ratio * (high - low), b = low + ratio * (high - low);
-  double loss_a = loss(a), loss_b = loss(b);
-  while (high - low > 1e-4) {
-    if (loss_a <= loss_b) {
-      high = b;
-      b = a;
-      loss_b = loss_a;
-      a = high - ratio * (high - low);
-      loss_a = loss(a);
-    } else {
-      low = a;
-      a = b;
-      loss_a = loss_b;
-      b = low + ratio * (high - low);
-      loss_b = loss(b);
-    }
-  }
-  return std::exp(0.5 * (low + high));
+  return std::exp(
+      boost::math::tools::brent_find_minima(loss, std::log(0.05), std::log(50.0), kBits, steps)
+          .first);
 }
 
 /// The least threshold on the probability of the first from which on the share is met; above 1 if

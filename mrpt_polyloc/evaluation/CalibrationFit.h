@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/evaluation/calibration_samples.h>
 #include <mrpt_polyloc/evaluation/reliability.h>
 #include <mrpt_polyloc/evaluation/roc.h>
@@ -11,7 +12,7 @@
 
 namespace mrpt_polyloc {
 
-struct CalibrationFitParams {
+struct POLYLOC_EXPORT CalibrationFitParams {
   /// Share of the good own scans that may be refused. Few: a scan that is refused is lost even
   /// where its answer would have been right.
   double lost = 0.005;
@@ -34,8 +35,8 @@ struct CalibrationFitParams {
 ///    stated.
 /// \throws InvalidParamsError if there is no good own scan, no foreign one, or no own scan with a
 /// right answer
-Calibration fitCalibration(const std::vector<CalibrationSample>& samples,
-                           const CalibrationFitParams& params = {});
+POLYLOC_EXPORT Calibration fitCalibration(const std::vector<CalibrationSample>& samples,
+                                          const CalibrationFitParams& params = {});
 
 /// What calibrations do on samples.
 struct CalibrationOutcome {
@@ -51,12 +52,12 @@ struct CalibrationOutcome {
 
 /// \param calibrations one for each sample: the same, or that of its fold
 /// \throws InvalidParamsError if there is no good own or no foreign scan
-CalibrationOutcome judge(const std::vector<CalibrationSample>& samples,
-                         const std::vector<Calibration>& calibrations);
+POLYLOC_EXPORT CalibrationOutcome judge(const std::vector<CalibrationSample>& samples,
+                                        const std::vector<Calibration>& calibrations);
 
 /// For each sample the calibration fitted without its map: without scans localized in that map and
 /// without scans taken in it. None if that leaves nothing to fit (there must be three sets).
-std::optional<std::vector<Calibration>> leaveOneMapOut(
+POLYLOC_EXPORT std::optional<std::vector<Calibration>> leaveOneMapOut(
     const std::vector<CalibrationSample>& samples, const CalibrationFitParams& params = {});
 
 }  // namespace mrpt_polyloc

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <vector>
 
 namespace mrpt_polyloc {
 
 /// A probability from a weighted sum of features: 1 / (1 + exp(-score)).
-struct LogisticModel {
+struct POLYLOC_EXPORT LogisticModel {
   double intercept = 0.0;
   std::vector<double> weights;  ///< one per feature
 
@@ -14,7 +16,7 @@ struct LogisticModel {
 };
 
 /// 1 / (1 + exp(-score)), without overflow.
-double logistic(double score);
+POLYLOC_EXPORT double logistic(double score);
 
 /// One example: its features, and whether it belongs to the class whose probability is wanted.
 struct LogisticSample {
@@ -23,7 +25,7 @@ struct LogisticSample {
   double weight = 1.0;  ///< counts as so many examples
 };
 
-struct LogisticFitParams {
+struct POLYLOC_EXPORT LogisticFitParams {
   /// Penalty on the squares of the weights, features scaled to unit deviation, in units of one
   /// example: enough to keep separable data finite, too little to matter else.
   double ridge = 1.0;
@@ -40,7 +42,7 @@ struct LogisticFitParams {
 /// gets the weight 0.
 /// \throws InvalidParamsError if an example has another number of features than the first, a value
 /// that is not finite or a weight that is not positive, or if a class has no example.
-LogisticModel fitLogistic(const std::vector<LogisticSample>& samples,
-                          const LogisticFitParams& params = {});
+POLYLOC_EXPORT LogisticModel fitLogistic(const std::vector<LogisticSample>& samples,
+                                         const LogisticFitParams& params = {});
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/evaluation/Simulator.h>
 #include <mrpt_polyloc/evaluation/WallSegments.h>
 #include <mrpt_polyloc/geometry/FreeSpaceSampler.h>
@@ -20,7 +21,7 @@ TPoint2D drawPlace(const FreeSpaceSampler& sampler, const WallSegments& walls, d
     const TPoint2D place = sampler.draw(random);
     if (walls.distance(place) >= clearance) return place;
   }
-  throw InvalidMapError("no place found in the free space that is " + std::to_string(clearance) +
+  throw InvalidMapError("no place found in the free space that is " + formatted("%f", clearance) +
                         " m from all walls");
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/base/Random.h>
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/evaluation/ChangedWorld.h>
 #include <mrpt_polyloc/evaluation/truth.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
@@ -14,7 +15,7 @@
 namespace mrpt_polyloc {
 
 /// The sensor, its noise, and what stands in its way that is not in the map.
-struct SimulatorParams {
+struct POLYLOC_EXPORT SimulatorParams {
   std::size_t beams = 360;  ///< one a degree: the usual small lidar
   /// Field of view, centred on the robot's heading [rad]. The whole circle: the beams divide it
   /// evenly and the first direction is not repeated; less: the outer beams lie on its rim.
@@ -55,8 +56,9 @@ mrpt::obs::CObservation2DRangeScan simulateScan(const WallSegments& walls,
 /// the same scans, whatever the standard library; poses depend on seed, map and clearance only, so
 /// that noise can be compared at equal poses.
 /// \throws InvalidParamsError; InvalidMapError if no place that keeps the clearance was found.
-std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorParams& params,
-                                         std::size_t count, std::uint64_t seed);
+POLYLOC_EXPORT std::vector<SimulatedScan> simulateScans(const PolygonMap& map,
+                                                        const SimulatorParams& params,
+                                                        std::size_t count, std::uint64_t seed);
 
 /// What the laser sees from a pose of it in the map, the clearance being the robot's.
 mrpt::obs::CObservation2DRangeScan simulateScan(const ChangedWorld& world,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 
 #include <mrpt/math/TPose2D.h>
@@ -29,17 +30,18 @@ struct ScanScore {
 
 /// Whether a pose lies within both tolerances of the truth (inclusive), headings compared modulo
 /// 2 pi.
-bool isRight(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth,
-             const Tolerance& tolerance = {});
+POLYLOC_EXPORT bool isRight(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth,
+                            const Tolerance& tolerance = {});
 
 /// Compares the answer to one scan with the truth, see isRight().
-ScanScore scoreScan(const LocalizationResult& result, const mrpt::math::TPose2D& truth,
-                    const Tolerance& tolerance = {});
+POLYLOC_EXPORT ScanScore scoreScan(const LocalizationResult& result,
+                                   const mrpt::math::TPose2D& truth,
+                                   const Tolerance& tolerance = {});
 
 /// The percentile of values by linear interpolation between order statistics: share 0 is the
 /// least, 1 the greatest, 0.5 the median (the mean of the two middle ones if their number is even).
 /// NaN if there are no values. O(n).
-double percentile(std::vector<double> values, double share);
+POLYLOC_EXPORT double percentile(std::vector<double> values, double share);
 
 /// Success rates and times over many scans, as summary.json holds them. All zero for no scans.
 struct Summary {
@@ -55,7 +57,7 @@ struct Summary {
 /// The summary of those scores whose indices are given; of all if `rows` is null. Scans called
 /// no_match or too_few_beams count as misses.
 /// \throws std::out_of_range if there is no score of that index.
-Summary summarize(const std::vector<ScanScore>& scores,
-                  const std::vector<std::size_t>* rows = nullptr);
+POLYLOC_EXPORT Summary summarize(const std::vector<ScanScore>& scores,
+                                 const std::vector<std::size_t>* rows = nullptr);
 
 }  // namespace mrpt_polyloc

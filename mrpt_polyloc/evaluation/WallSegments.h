@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
 #include <vector>
@@ -36,7 +37,7 @@ struct RoomChanges {
 ///
 /// Slow and simple on purpose: simulated scans and tests need ranges that share nothing with the
 /// search's own predictor. Open edges are left out (a beam passes them), walls beyond are in.
-class WallSegments {
+class POLYLOC_EXPORT WallSegments {
  public:
   explicit WallSegments(const PolygonMap& map);
   /// The walls of the room as it is now. \throws InvalidParamsError

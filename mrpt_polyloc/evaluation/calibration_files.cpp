@@ -1,14 +1,13 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/evaluation/calibration_files.h>
+#include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/json_input.h>
 
 #include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
-#include <sstream>
 
 namespace mrpt_polyloc {
 namespace {
@@ -31,14 +30,6 @@ constexpr std::array<Field, 6> kFields = {{
     {"heading_factor", "kHeadingFactor", &Calibration::heading_factor},
 }};
 
-std::string readText(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FormatError(path, "", "no such file, or not readable");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 double numberAt(const nlohmann::json& object, const std::string& name, const std::string& path) {
   if (!object.contains(name)) throw FormatError(path, name, "is missing");
   if (!object[name].is_number()) throw FormatError(path, name, "is no number");
@@ -47,9 +38,7 @@ double numberAt(const nlohmann::json& object, const std::string& name, const std
 
 /// As C++ text: seven digits are more than the data hold, and 1 must stay a double.
 std::string literal(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.7g", value);
-  std::string digits = text;
+  std::string digits = formatted("%.7g", value);
   if (digits.find_first_of(".e") == std::string::npos) digits += ".0";
   return digits;
 }
@@ -70,7 +59,7 @@ ordered_json calibrationJson(const Calibration& calibration) {
 }
 
 Calibration loadCalibration(const std::string& path) {
-  const nlohmann::json json = parseJson(readText(path), path);
+  const nlohmann::json json = parseJson(GzInputStream(path).readAll(), path);
   if (!json.is_object()) throw FormatError(path, "", "is no object");
   Calibration calibration;
   for (const Field& field : kFields) calibration.*field.value = numberAt(json, field.name, path);
@@ -118,9 +107,7 @@ ordered_json outcomeJson(const CalibrationOutcome& outcome) {
   json["cluttered"] = outcome.cluttered;
   json["roc_area"] = rocArea(outcome.roc);
   for (const double lost : {0.01, 0.03, 0.05}) {
-    char key[40];
-    std::snprintf(key, sizeof key, "foreign_refused_at_%g", lost);
-    json[key] = pointAtLoss(outcome.roc, lost).refused;
+    json[formatted("foreign_refused_at_%g", lost)] = pointAtLoss(outcome.roc, lost).refused;
   }
   json["good_lost"] = share(outcome.good_lost, outcome.good);
   json["foreign_refused"] = share(outcome.foreign_refused, outcome.foreign);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/evaluation/Summary.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 #include <mrpt_polyloc/localization/ranking/Calibration.h>
@@ -34,13 +35,13 @@ struct CalibrationSample {
 
 /// The calibration to localize with when samples are gathered: nothing is refused, and covariances
 /// are as the refinement gives them.
-Calibration uncalibrated();
+POLYLOC_EXPORT Calibration uncalibrated();
 
 /// The sample of a result that was found with uncalibrated(); none if nothing was found.
 /// \param truth where the scan was taken; null for a foreign one. map, set, origin and good are
 /// left to the caller.
-std::optional<CalibrationSample> calibrationSample(const LocalizationResult& result,
-                                                   const mrpt::math::TPose2D* truth,
-                                                   const Tolerance& tolerance = {});
+POLYLOC_EXPORT std::optional<CalibrationSample> calibrationSample(const LocalizationResult& result,
+                                                                  const mrpt::math::TPose2D* truth,
+                                                                  const Tolerance& tolerance = {});
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <cstddef>
 #include <vector>
 
@@ -21,10 +23,10 @@ struct ReliabilityBin {
 
 /// The reliability diagram of forecasts: of what was stated with probability p, a share of p should
 /// come true. \param edges rising, at least two \throws InvalidParamsError for other edges
-std::vector<ReliabilityBin> reliability(const std::vector<Forecast>& forecasts,
-                                        const std::vector<double>& edges);
+POLYLOC_EXPORT std::vector<ReliabilityBin> reliability(const std::vector<Forecast>& forecasts,
+                                                       const std::vector<double>& edges);
 
 /// Mean over the forecasts of |stated - true share| of their bin.
-double calibrationError(const std::vector<ReliabilityBin>& bins);
+POLYLOC_EXPORT double calibrationError(const std::vector<ReliabilityBin>& bins);
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <vector>
 
 namespace mrpt_polyloc {
@@ -15,13 +17,14 @@ struct RocPoint {
 /// threshold: from nothing refused to (threshold infinity) everything refused. Of equal scores
 /// both classes fall at once. O(n log n).
 /// \throws InvalidParamsError if a class is empty or a score is not a number
-std::vector<RocPoint> rocCurve(std::vector<double> true_scores, std::vector<double> foreign_scores);
+POLYLOC_EXPORT std::vector<RocPoint> rocCurve(std::vector<double> true_scores,
+                                              std::vector<double> foreign_scores);
 
 /// Area under the curve: the probability that a true example scores above a foreign one, ties
 /// counted half.
-double rocArea(const std::vector<RocPoint>& curve);
+POLYLOC_EXPORT double rocArea(const std::vector<RocPoint>& curve);
 
 /// The last point at which at most this share of the true is lost.
-RocPoint pointAtLoss(const std::vector<RocPoint>& curve, double share);
+POLYLOC_EXPORT RocPoint pointAtLoss(const std::vector<RocPoint>& curve, double share);
 
 }  // namespace mrpt_polyloc

@@ -1,11 +1,11 @@
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/evaluation/summary_json.h>
 
 #include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace mrpt_polyloc {
 
@@ -41,9 +41,7 @@ ordered_json summaryFigures(const Summary& summary) {
 /// "%.*f", or nothing where there is no such number.
 std::string toField(double value, int digits) {
   if (!std::isfinite(value)) return {};
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
+  return formatted("%.*f", digits, value);
 }
 
 /// ",x,y,phi_deg"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/evaluation/Summary.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
@@ -15,7 +16,7 @@ namespace mrpt_polyloc {
 
 /// Figures of a map: vertices, reflex_vertices, holes, components (counts), area_m2, perimeter_m,
 /// open_perimeter_m, walls_beyond_m. What summary.json holds under "map".
-nlohmann::ordered_json mapStatistics(const PolygonMap& map);
+POLYLOC_EXPORT nlohmann::ordered_json mapStatistics(const PolygonMap& map);
 
 /// What the search index of a map took.
 struct IndexFigures {
@@ -33,8 +34,8 @@ nlohmann::ordered_json summaryObject(const Summary& all, const Summary* good,
 /// Figures that do not exist are null: all fractions and times if there are no scans,
 /// `unique_right` if no scan was called unique, the median errors if no first answer was right.
 /// \param good the summary over the good rows, null if there are none given: no key "good" then
-std::string summaryJson(const Summary& all, const Summary* good, const IndexFigures& index,
-                        const PolygonMap& map);
+POLYLOC_EXPORT std::string summaryJson(const Summary& all, const Summary* good,
+                                       const IndexFigures& index, const PolygonMap& map);
 
 /// One line of scans.csv.
 struct ScanRecord {
@@ -49,6 +50,6 @@ struct ScanRecord {
 /// The text of scans.csv, one line per scan under the header
 /// `row,stamp,status,right_rank,hypotheses,error_m,error_deg,cost,x,y,phi_deg,truth_x,truth_y,`
 /// `truth_phi_deg,ms`; fields that do not exist are empty. Headings in (-180, 180].
-std::string scansCsv(const std::vector<ScanRecord>& records);
+POLYLOC_EXPORT std::string scansCsv(const std::vector<ScanRecord>& records);
 
 }  // namespace mrpt_polyloc

@@ -1,13 +1,11 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/evaluation/truth.h>
 #include <mrpt_polyloc/io/GzInputStream.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <numeric>
 #include <string_view>
 
@@ -35,42 +33,21 @@ std::vector<std::string_view> splitFields(std::string_view line) {
 /// comment.
 template <class Use>
 void forEachLine(const std::string& path, Use use) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FormatError(path, "", "cannot be read");
-  std::string line(4, '\0');
-  const auto useLine = [&](std::size_t number) {
+  GzInputStream stream(path);
+  std::string line;
+  for (std::size_t number = 1; stream.readLine(line); ++number) {
     const std::string_view content = std::string_view(line).substr(0, line.find('#'));
     const std::vector<std::string_view> fields = splitFields(content);
     if (!fields.empty()) use(fields, "line " + std::to_string(number));
-  };
-  file.read(line.data(), static_cast<std::streamsize>(line.size()));
-  line.resize(static_cast<std::size_t>(file.gcount()));
-  if (isCompressed(line)) {
-    GzInputStream stream(path);
-    for (std::size_t number = 1; stream.readLine(line); ++number) useLine(number);
-    return;
   }
-  if (!file.bad()) {
-    file.clear();
-    file.seekg(0);
-  }
-  for (std::size_t number = 1; std::getline(file, line); ++number) useLine(number);
-  if (file.bad()) throw FormatError(path, "", "cannot be read to its end");
 }
 
-// Independent of the locale, unlike strtod and streams.
-template <class Number>
-bool parseNumber(std::string_view text, Number& value) {
-  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stop == end;
-}
-
-std::string toText(double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.6f", value);
-  return text.data();
+double finiteNumber(std::string_view text, const std::string& path, const std::string& place) {
+  const auto value = parseNumber(text);
+  if (!value || !std::isfinite(*value)) {
+    throw FormatError(path, place, "'" + std::string(text) + "' is not a finite number");
+  }
+  return *value;
 }
 
 StampedPose parsePose(const std::vector<std::string_view>& fields, const std::string& path,
@@ -81,13 +58,11 @@ StampedPose parsePose(const std::vector<std::string_view>& fields, const std::st
         path, place,
         "expected 8 fields (stamp x y z qx qy qz qw), got " + std::to_string(fields.size()));
   std::array<double, kFields> v{};
-  for (std::size_t i = 0; i < kFields; ++i)
-    if (!parseNumber(fields[i], v[i]) || !std::isfinite(v[i]))
-      throw FormatError(path, place, "'" + std::string(fields[i]) + "' is not a finite number");
+  for (std::size_t i = 0; i < kFields; ++i) v[i] = finiteNumber(fields[i], path, place);
   const double qx = v[4], qy = v[5], qz = v[6], qw = v[7];
   const double length = std::sqrt(qx * qx + qy * qy + qz * qz + qw * qw);
   if (std::abs(length - 1.0) > kQuaternionTolerance)
-    throw FormatError(path, place, "quaternion of length " + toText(length) + ", not 1");
+    throw FormatError(path, place, "quaternion of length " + formatted("%.6f", length) + ", not 1");
   // The yaw for a quaternion of any length, so that rounding in the file does no harm.
   const double yaw = std::atan2(2.0 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz);
   return {v[0], {v[1], v[2], yaw}};
@@ -106,13 +81,10 @@ std::vector<StampedPose> loadTum(const std::string& path) {
 
 std::string toTum(const std::vector<StampedPose>& poses) {
   std::string text;
-  std::array<char, 512> line{};
   for (const StampedPose& stamped : poses) {
     const auto& pose = stamped.pose_map_robot;
-    const int length =
-        std::snprintf(line.data(), line.size(), "%.9f %.6f %.6f 0 0 0 %.9f %.9f\n", stamped.stamp,
-                      pose.x, pose.y, std::sin(pose.phi / 2.0), std::cos(pose.phi / 2.0));
-    text.append(line.data(), std::min(line.size() - 1, static_cast<std::size_t>(length)));
+    text += formatted("%.9f %.6f %.6f 0 0 0 %.9f %.9f\n", stamped.stamp, pose.x, pose.y,
+                      std::sin(pose.phi / 2.0), std::cos(pose.phi / 2.0));
   }
   return text;
 }
@@ -136,7 +108,8 @@ std::vector<mrpt::math::TPose2D> matchTruth(const std::vector<RangeScan>& scans,
     const auto isNear = [&](auto it) {
       return it != by_stamp.end() && truth[*it].stamp <= stamp + kStampTolerance;
     };
-    const std::string place = "scan " + std::to_string(row) + " (stamp " + toText(stamp) + ")";
+    const std::string place =
+        "scan " + std::to_string(row) + " (stamp " + formatted("%.6f", stamp) + ")";
     if (!isNear(first)) throw FormatError(path, place, "no pose within 1 ms");
     if (isNear(first + 1)) throw FormatError(path, place, "several poses within 1 ms");
     used[*first] = true;
@@ -146,7 +119,8 @@ std::vector<mrpt::math::TPose2D> matchTruth(const std::vector<RangeScan>& scans,
   if (unused != used.end()) {
     const auto index = static_cast<std::size_t>(unused - used.begin());
     throw FormatError(
-        path, "pose " + std::to_string(index) + " (stamp " + toText(truth[index].stamp) + ")",
+        path,
+        "pose " + std::to_string(index) + " (stamp " + formatted("%.6f", truth[index].stamp) + ")",
         "no scan within 1 ms");
   }
   return poses;
@@ -162,9 +136,7 @@ std::vector<std::optional<mrpt::math::TPose2D>> loadIndexedTruth(const std::stri
       throw FormatError(path, place,
                         "expected 4 fields (index x y phi), got " + std::to_string(fields.size()));
     std::array<double, kFields> v{};
-    for (std::size_t i = 0; i < kFields; ++i)
-      if (!parseNumber(fields[i], v[i]) || !std::isfinite(v[i]))
-        throw FormatError(path, place, "'" + std::string(fields[i]) + "' is not a finite number");
+    for (std::size_t i = 0; i < kFields; ++i) v[i] = finiteNumber(fields[i], path, place);
     const std::string name = "index " + std::string(fields[0]);
     if (v[0] < 0.0 || v[0] != std::floor(v[0]))
       throw FormatError(path, place, name + " is no whole number from 0");
@@ -191,10 +163,11 @@ std::vector<std::size_t> loadRows(const std::string& path, std::size_t rows) {
   std::vector<std::size_t> result;
   std::vector<bool> seen(rows, false);
   forEachLine(path, [&](const auto& fields, const std::string& place) {
-    std::size_t row = 0;
     if (fields.size() != 1) throw FormatError(path, place, "expected one row number");
-    if (!parseNumber(fields[0], row))
+    const auto number = parseCount(fields[0]);
+    if (!number)
       throw FormatError(path, place, "'" + std::string(fields[0]) + "' is not a row number");
+    const std::size_t row = *number;
     if (row >= rows)
       throw FormatError(path, place,
                         "row " + std::to_string(row) + " of " + std::to_string(rows) + " scans");

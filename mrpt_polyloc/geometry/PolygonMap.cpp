@@ -1,13 +1,13 @@
 #include <mrpt_polyloc/base/Checksum.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -15,9 +15,7 @@ namespace mrpt_polyloc {
 namespace {
 
 std::string at(const TPoint2D& p) {
-  char text[80];
-  std::snprintf(text, sizeof text, " at (%.3f, %.3f)", p.x, p.y);
-  return text;
+  return formatted(" at (%.3f, %.3f)", p.x, p.y);
 }
 
 void checkFinite(const std::vector<TPoint2D>& points, const char* what) {
@@ -99,18 +97,11 @@ PolygonMap::PolygonMap(std::vector<FreePolygon> components, std::vector<Polyline
     checkFinite(wall, "wall beyond");
   }
 
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  bounding_box_ = {{inf, inf}, {-inf, -inf}};
-  const auto extend = [this](const std::vector<TPoint2D>& points) {
-    for (const TPoint2D& p : points) {
-      bounding_box_.min.x = std::min(bounding_box_.min.x, p.x);
-      bounding_box_.min.y = std::min(bounding_box_.min.y, p.y);
-      bounding_box_.max.x = std::max(bounding_box_.max.x, p.x);
-      bounding_box_.max.y = std::max(bounding_box_.max.y, p.y);
-    }
-  };
-  for (const FreePolygon& component : components_) extend(component.outer.vertices);
-  for (const Polyline& wall : walls_beyond_) extend(wall);
+  bounding_box_ = BoundingBox::empty();
+  for (const FreePolygon& component : components_) {
+    bounding_box_.include(BoundingBox::of(component.outer.vertices));
+  }
+  for (const Polyline& wall : walls_beyond_) bounding_box_.include(BoundingBox::of(wall));
 }
 
 std::vector<const Ring*> PolygonMap::rings() const {
@@ -129,9 +120,7 @@ bool PolygonMap::contains(const TPoint2D& point) const {
     bool on_border = false;
     forEachEdge(*ring, [&](const TPoint2D& a, const TPoint2D& b, EdgeKind) {
       const double side = cross(a, b, point);
-      const bool in_box = std::min(a.x, b.x) <= point.x && point.x <= std::max(a.x, b.x) &&
-                          std::min(a.y, b.y) <= point.y && point.y <= std::max(a.y, b.y);
-      if (side == 0.0 && in_box) on_border = true;
+      if (side == 0.0 && BoundingBox::of(std::array{a, b}).contains(point)) on_border = true;
       if ((a.y <= point.y) != (b.y <= point.y)) inside ^= (side > 0.0) == (b.y > a.y);
     });
     if (on_border) return true;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+#include <mrpt_polyloc/geometry/BoundingBox.h>
+
 #include <mrpt/math/TPoint2D.h>
 
 #include <cstddef>
@@ -7,8 +10,6 @@
 #include <vector>
 
 namespace mrpt_polyloc {
-
-using mrpt::math::TPoint2D;
 
 /// What an edge of free space borders on: a wall stops a beam; past an open edge lies unknown
 /// space, and a beam may go on into it.
@@ -24,11 +25,11 @@ struct Ring {
 };
 
 /// A ring whose edges are all walls.
-Ring wallRing(std::vector<TPoint2D> vertices);
+POLYLOC_EXPORT Ring wallRing(std::vector<TPoint2D> vertices);
 
 /// Twice the signed area is the shoelace sum; this is the area itself [m2], positive for
 /// counterclockwise.
-double signedArea(const std::vector<TPoint2D>& vertices);
+POLYLOC_EXPORT double signedArea(const std::vector<TPoint2D>& vertices);
 
 /// One connected piece of free space: the outer ring counterclockwise, the holes clockwise, so
 /// that free space lies to the left of every directed edge.
@@ -40,17 +41,11 @@ struct FreePolygon {
 /// An open chain of at least two points [m].
 using Polyline = std::vector<TPoint2D>;
 
-/// An axis-parallel box [m].
-struct BoundingBox {
-  TPoint2D min{0, 0};
-  TPoint2D max{0, 0};
-};
-
 /// The map: free space as polygons with holes (several components allowed), every edge a wall or
 /// open, and the *walls beyond*: walls known to stand outside the free space, behind unknown cells.
 ///
 /// Immutable. All coordinates are metres in the map frame.
-class PolygonMap {
+class POLYLOC_EXPORT PolygonMap {
  public:
   /// Takes rings as they are after validation (see repairMap()): at least three vertices, finite
   /// coordinates, outer rings counterclockwise, holes clockwise, `kinds` as long as `vertices`.

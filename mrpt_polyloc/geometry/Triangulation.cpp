@@ -35,7 +35,7 @@ Triangulation::Triangulation(const PolygonMap& map) {
 }
 
 void Triangulation::buildBuckets() {
-  const double width = box_.max.x - box_.min.x, height = box_.max.y - box_.min.y;
+  const double width = box_.width(), height = box_.height();
   const double buckets = std::max(1.0, static_cast<double>(faces_.size()) / kFacesPerBucket);
   bucket_size_ = std::max(std::sqrt(width * height / buckets), std::max(width, height) / 4096.0);
   bucket_columns_ = static_cast<int>(width / bucket_size_) + 1;
@@ -79,9 +79,7 @@ int Triangulation::walk(int face, const TPoint2D& point) const {
 }
 
 int Triangulation::locate(const TPoint2D& point) const {
-  const bool inside = point.x >= box_.min.x && point.x <= box_.max.x && point.y >= box_.min.y &&
-                      point.y <= box_.max.y;  // false for NaN
-  if (!inside) return kNone;
+  if (!box_.contains(point)) return kNone;
   const int column =
       std::min(static_cast<int>((point.x - box_.min.x) / bucket_size_), bucket_columns_ - 1);
   const int row =

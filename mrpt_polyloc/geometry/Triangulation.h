@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
 #include <array>
@@ -19,7 +20,7 @@ enum class Passage : std::uint8_t { clear, open, wall };
 /// Serves views, beams and point location alike: a beam passes clear and open edges and stops at
 /// walls; a position lies in a free or an unknown face. Immutable, all queries const and
 /// thread-safe. Predicates are exact (double filter, exact fallback).
-class Triangulation {
+class POLYLOC_EXPORT Triangulation {
  public:
   static constexpr int kNone = -1;
 

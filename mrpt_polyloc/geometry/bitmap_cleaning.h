@@ -1,13 +1,14 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/OccupancyBitmap.h>
 
 namespace mrpt_polyloc {
 
-/// What is mended in a measured bitmap before it is traced. The reasons were found on grids made
+/// What is repaired in a measured bitmap before it is traced. The reasons were found on grids made
 /// from laser scans, where each far wall is a row of dots, and free space ends in the rays of the
 /// scans.
-struct BitmapCleaningParams {
+struct POLYLOC_EXPORT BitmapCleaningParams {
   /// Unknown cells at the rim of free space through which the line between two occupied cells at
   /// most this far apart passes become occupied [m]: the dots of a wall are joined, a door (0.7 m)
   /// is not closed.
@@ -21,8 +22,9 @@ struct BitmapCleaningParams {
   void check() const;
 };
 
-/// The mended bitmap. Cells known to be free or occupied keep their state. O(cells + rim cells
+/// The repaired bitmap. Cells known to be free or occupied keep their state. O(cells + rim cells
 /// times the square of the occupied cells within max_wall_gap of each).
-OccupancyBitmap cleanBitmap(OccupancyBitmap bitmap, const BitmapCleaningParams& params = {});
+POLYLOC_EXPORT OccupancyBitmap cleanBitmap(OccupancyBitmap bitmap,
+                                           const BitmapCleaningParams& params = {});
 
 }  // namespace mrpt_polyloc

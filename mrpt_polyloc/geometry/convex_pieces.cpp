@@ -144,16 +144,12 @@ class FacesOfSquares {
   };
 
   void takeFace(std::size_t f) {
-    TPoint2D low = corner(f, 0), high = low;
-    for (std::size_t i = 1; i < 3; ++i) {
-      low = {std::min(low.x, corner(f, i).x), std::min(low.y, corner(f, i).y)};
-      high = {std::max(high.x, corner(f, i).x), std::max(high.y, corner(f, i).y)};
-    }
+    const auto box = BoundingBox::of(std::array{corner(f, 0), corner(f, 1), corner(f, 2)});
     const auto place = [this](double offset) {
       return std::max(static_cast<std::int32_t>(std::floor(offset / size_)), 0);
     };
-    for (std::int32_t r = place(low.y - corner_.y); r <= place(high.y - corner_.y); ++r) {
-      for (std::int32_t c = place(low.x - corner_.x); c <= place(high.x - corner_.x); ++c) {
+    for (std::int32_t r = place(box.min.y - corner_.y); r <= place(box.max.y - corner_.y); ++r) {
+      for (std::int32_t c = place(box.min.x - corner_.x); c <= place(box.max.x - corner_.x); ++c) {
         if (!misses(f, c, r)) pairs_.push_back({r, c, static_cast<std::int32_t>(f)});
       }
     }

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/geometry/BoundingBox.h>
 #include <mrpt_polyloc/geometry/noding.h>
 #include <mrpt_polyloc/geometry/validation.h>
 
@@ -19,7 +20,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// Rounds of cutting: the second mostly finds nothing left to cut, each further one mends what
+/// Rounds of cutting: the second mostly finds nothing left to cut, each further one repairs what
 /// rounding has bent.
 constexpr int kMaxRounds = 20;
 /// Cuts in one round: beyond it lies only input made to be quadratic.
@@ -38,8 +39,7 @@ CGAL::Orientation orientation(const TPoint2D& a, const TPoint2D& b, const TPoint
 }
 
 bool inBox(const TPoint2D& a, const TPoint2D& b, const TPoint2D& p) {
-  return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
-         p.y <= std::max(a.y, b.y);
+  return BoundingBox::of(std::array{a, b}).contains(p);
 }
 
 /// The crossing point of ab and cd, exact but for one rounding, and inside both boxes.

@@ -9,7 +9,7 @@ namespace mrpt_polyloc {
 
 /// Reports what noded rings and their labels show to be wrong with polygons, each defect where it
 /// is, as repaired or refused.
-/// \return by polygon, whether its border has to be traced anew
+/// \return by polygon, whether its border has to be traced again
 std::vector<bool> judgePolygons(const std::vector<CleanRing>& rings, const NodedRings& noded,
                                 const PlanarRegions& regions, const FreeSpaceLabels& labels,
                                 Findings& findings);

@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/geometry/bitmap_regions.h>
 #include <mrpt_polyloc/geometry/border_chains.h>
@@ -8,17 +9,10 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace mrpt_polyloc {
 namespace {
-
-std::string toText(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 void checkBitmap(const OccupancyBitmap& bitmap) {
   const auto fail = [](const std::string& reason) {
@@ -36,12 +30,12 @@ void checkBitmap(const OccupancyBitmap& bitmap) {
     fail(size + " cells are too many");
   }
   if (!std::isfinite(bitmap.resolution) || bitmap.resolution <= 0.0) {
-    fail("resolution " + toText(bitmap.resolution) + " is not a positive length");
+    fail("resolution " + formatted("%g", bitmap.resolution) + " is not a positive length");
   }
   const mrpt::math::TPose2D& pose = bitmap.pose_map_bitmap;
   if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.phi)) {
-    fail("its pose (" + toText(pose.x) + ", " + toText(pose.y) + ", " + toText(pose.phi) +
-         ") is not finite");
+    fail("its pose (" + formatted("%g", pose.x) + ", " + formatted("%g", pose.y) + ", " +
+         formatted("%g", pose.phi) + ") is not finite");
   }
 }
 
@@ -74,7 +68,7 @@ PolygonMap traceBitmap(const OccupancyBitmap& bitmap, const TracingParams& param
                    params.max_filled_unknown_area / cell_area * (1.0 + kRounding));
   if (regions.componentCount() == 0) {
     throw InvalidMapError("occupancy bitmap: no free component of at least " +
-                          toText(params.min_component_area) + " m2");
+                          formatted("%g", params.min_component_area) + " m2");
   }
   const BorderChains borders =
       simplifyChains(traceBorders(regions), bitmap.width, bitmap.height, params.tolerance_cells);

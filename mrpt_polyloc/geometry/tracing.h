@@ -1,12 +1,13 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/OccupancyBitmap.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
 namespace mrpt_polyloc {
 
 /// How a bitmap becomes a polygon map.
-struct TracingParams {
+struct POLYLOC_EXPORT TracingParams {
   /// Greatest distance between the exact cell border and the simplified one, in cells. One cell:
   /// within the resolution of the grid, and it takes the staircase off slanted walls. 0 keeps every
   /// corner. Closed borders narrower than two cells times this are simplified less, so that specks
@@ -39,6 +40,7 @@ struct TracingParams {
 /// the number n of border corners (23 million cells with 800,000 corners: about a second and 300
 /// MB). \throws InvalidMapError if the bitmap is malformed or no free component is left. \throws
 /// InvalidParamsError naming the bad field of `params`.
-PolygonMap traceBitmap(const OccupancyBitmap& bitmap, const TracingParams& params = {});
+POLYLOC_EXPORT PolygonMap traceBitmap(const OccupancyBitmap& bitmap,
+                                      const TracingParams& params = {});
 
 }  // namespace mrpt_polyloc

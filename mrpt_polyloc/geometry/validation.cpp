@@ -1,11 +1,11 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/geometry/border_tracing.h>
 #include <mrpt_polyloc/geometry/findings.h>
 #include <mrpt_polyloc/geometry/polygon_verdicts.h>
 #include <mrpt_polyloc/geometry/validation.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 namespace mrpt_polyloc {
@@ -14,7 +14,7 @@ namespace {
 /// Defects that an error message lists one by one.
 constexpr std::size_t kListedDefects = 10;
 
-/// Puts the polygons together whose rings can stay as they are, and those traced anew.
+/// Puts the polygons together whose rings can stay as they are, and those traced again.
 std::vector<FreePolygon> assemble(const std::vector<CleanRing>& rings,
                                   const FreeSpaceLabels& labels,
                                   const std::vector<bool>& is_rebuilt,
@@ -114,9 +114,7 @@ RepairedMap repairMap(const RawMap& raw) {
 }
 
 std::string toString(const Defect& defect) {
-  char place[700];  // %.3f of 1e308 has 313 characters
-  std::snprintf(place, sizeof place, " at (%.3f, %.3f)", defect.where.x, defect.where.y);
-  return defect.what + place;
+  return defect.what + formatted(" at (%.3f, %.3f)", defect.where.x, defect.where.y);
 }
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
 #include <optional>
@@ -79,13 +80,13 @@ constexpr std::size_t kMaxContacts = 10000;
 /// Exact: orientations are decided without rounding; crossing points are rounded to doubles and the
 /// result is free of crossings as it stands. O(n log n) in vertices for maps as they are found; the
 /// worst case (n edges with mutually overlapping bounding boxes) is quadratic.
-MapInspection inspectMap(const RawMap& raw);
+POLYLOC_EXPORT MapInspection inspectMap(const RawMap& raw);
 
 /// inspectMap() for those who want the map.
 /// \throws InvalidMapError listing the defects (what and where) that could not be repaired.
-RepairedMap repairMap(const RawMap& raw);
+POLYLOC_EXPORT RepairedMap repairMap(const RawMap& raw);
 
 /// "what at (x, y)" with millimetres.
-std::string toString(const Defect& defect);
+POLYLOC_EXPORT std::string toString(const Defect& defect);
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <mrpt/io/CStream.h>
 
 #include <cstddef>
@@ -10,7 +12,7 @@
 namespace mrpt_polyloc {
 
 /// Whether a file that begins so is compressed by gzip or zstd.
-bool isCompressed(const std::string& head);
+POLYLOC_EXPORT bool isCompressed(const std::string& head);
 
 /// A file to read, compressed by gzip or zstd or plain (told by its first bytes, whatever its
 /// name), as a stream for MRPT's archives and for lines of text.
@@ -22,7 +24,7 @@ bool isCompressed(const std::string& head);
 ///
 /// Files that end too early are refused, or read up to there (AtCut): what comes before a cut is
 /// right, unlike what comes after damage.
-class GzInputStream : public mrpt::io::CStream {
+class POLYLOC_EXPORT GzInputStream : public mrpt::io::CStream {
  public:
   /// What to do where a compressed file ends too early.
   enum class AtCut { refuse, end };

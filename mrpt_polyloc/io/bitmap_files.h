@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/base/notes.h>
 #include <mrpt_polyloc/geometry/OccupancyBitmap.h>
 
@@ -17,6 +18,7 @@ constexpr std::int64_t kMaxBitmapCells = 400'000'000;
 /// also with .gz or .zst behind; extensions in any case. None for any other extension.
 /// \param notes as in loadRosMap()
 /// \throws FormatError as loadRosMap(), loadGridMap() and loadSimpleMap().
-std::optional<OccupancyBitmap> loadBitmap(const std::string& path, Notes* notes = nullptr);
+POLYLOC_EXPORT std::optional<OccupancyBitmap> loadBitmap(const std::string& path,
+                                                         Notes* notes = nullptr);
 
 }  // namespace mrpt_polyloc

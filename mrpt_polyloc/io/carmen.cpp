@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/carmen.h>
 #include <mrpt_polyloc/io/carmen_line.h>
@@ -312,7 +313,7 @@ ScanStreamEnd streamCarmen(const std::string& path, const ScanFileOptions& optio
                            const TakeLoggedScan& take) {
   const auto& fov = options.laser_fov;
   if (fov && !(*fov > 0.0 && *fov <= 2 * kPi + 1e-9)) {
-    throw InvalidParamsError("laser_fov is " + std::to_string(*fov) + ", not in (0, 2 pi]");
+    throw InvalidParamsError("laser_fov is " + formatted("%f", *fov) + ", not in (0, 2 pi]");
   }
   const auto reader = std::make_shared<Reader>(path, options);
   reader->read(notes, take);

@@ -1,6 +1,6 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/io/carmen_line.h>
-#include <mrpt_polyloc/io/numbers.h>
 
 #include <algorithm>
 #include <cmath>

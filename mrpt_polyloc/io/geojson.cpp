@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -129,9 +128,7 @@ std::vector<TPoint2D> readLine(const JsonAt& line) {
 }
 
 std::string text(const TPoint2D& p) {
-  char buffer[700];  // %.6f of 1e308 has 316 characters
-  std::snprintf(buffer, sizeof buffer, "(%.6f, %.6f)", p.x, p.y);
-  return buffer;
+  return formatted("(%.6f, %.6f)", p.x, p.y);
 }
 
 /// Marks the ring edges along an open line.
@@ -173,9 +170,23 @@ std::optional<FeatureKind> kindOf(const JsonAt& feature) {
   kind.fail("unknown kind \"" + name + "\", expected \"free\", \"open\" or \"wall\"");
 }
 
+/// Whether any of a feature's properties says that it is a door: `"door": true`, `"type": "Door"`.
+bool isDoor(const JsonAt& feature) {
+  if (!feature.has("properties")) return false;
+  return feature.member("properties").anyMember([](std::string key, std::string value) {
+    for (std::string* text : {&key, &value}) {
+      for (char& c : *text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    if (value == "door" || value == "doorway") return true;
+    return key == "door" && value != "no" && value != "false" && value != "null";
+  });
+}
+
 /// Reads features and geometries into a map.
 class Reader {
  public:
+  explicit Reader(std::vector<Polyline>* doors) : doors_(doors) {}
+
   void readRoot(const JsonAt& root) {
     const std::string type = root.member("type").string();
     if (type == "FeatureCollection") {
@@ -211,6 +222,11 @@ class Reader {
     return type == "Polygon" || type == "MultiPolygon" || type == "GeometryCollection";
   }
 
+  static bool isLine(const JsonAt& geometry) {
+    const std::string type = geometry.member("type").string();
+    return type == "LineString" || type == "MultiLineString";
+  }
+
   void readFree(const JsonAt& geometry) {
     forEachOf(geometry, "Polygon",
               [&](const JsonAt& rings) { map_.polygons.push_back(readPolygon(rings)); });
@@ -220,7 +236,10 @@ class Reader {
     const std::optional<FeatureKind> kind = kindOf(feature);
     const JsonAt geometry = feature.member("geometry");
     if (geometry.isNull()) return;  // RFC 7946: it has no place
-    if (!kind) {
+    if (!kind && doors_ != nullptr && isDoor(feature) && isLine(geometry)) {
+      forEachOf(geometry, "LineString",
+                [&](const JsonAt& line) { doors_->push_back(readLine(line)); });
+    } else if (!kind) {
       readUnsaid(geometry);
     } else if (*kind == FeatureKind::free) {
       readFree(geometry);
@@ -251,6 +270,7 @@ class Reader {
     }
   }
 
+  std::vector<Polyline>* doors_;  ///< null: doors are passed over
   RawMap map_;
   std::vector<JsonAt> open_geometries_;
   std::size_t unsaid_polygons_ = 0;
@@ -308,10 +328,11 @@ void appendLines(std::string& out, const char* kind, const std::vector<Polyline>
 
 }  // namespace
 
-RawMap parseGeoJson(const std::string& text, const std::string& file, Notes* notes) {
+RawMap parseGeoJson(const std::string& text, const std::string& file, Notes* notes,
+                    std::vector<Polyline>* doors) {
   const nlohmann::json document = parseJson(text, file);
   const JsonAt root(document, "", file);
-  Reader reader;
+  Reader reader(doors);
   reader.readRoot(root);
   RawMap map = reader.finish(notes);
   if (map.polygons.empty() && reader.passedOver() > 0) {

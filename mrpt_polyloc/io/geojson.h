@@ -4,6 +4,7 @@
 #include <mrpt_polyloc/geometry/validation.h>
 
 #include <string>
+#include <vector>
 
 namespace mrpt_polyloc {
 
@@ -20,11 +21,14 @@ constexpr double kOpenLineSnap = 1e-6;
 /// feature without geometry says nothing; of features without `kind` polygons are free space, and
 /// all else is passed over; a third coordinate is dropped.
 /// \param notes gets a sentence for features without `kind`; may be null
+/// \param doors gets lines without `kind` of which a property says that they are doors (see
+/// doorPassages()); null: they are passed over
 /// \param text what the file holds
 /// \param file its name, for messages
 /// \throws FormatError naming the file and the line, or the path of what is wrong, such as
 /// `features[2].geometry.coordinates[0][3]`.
-RawMap parseGeoJson(const std::string& text, const std::string& file, Notes* notes = nullptr);
+RawMap parseGeoJson(const std::string& text, const std::string& file, Notes* notes = nullptr,
+                    std::vector<Polyline>* doors = nullptr);
 
 /// The map as such a file: free space as a MultiPolygon; if there are any, open edges as a
 /// MultiLineString of runs as long as can be, and walls beyond as a MultiLineString. Reads back as

@@ -39,6 +39,14 @@ JsonAt JsonAt::member(const char* name) const {
   return {*found, path_.empty() ? name : path_ + "." + name, file_};
 }
 
+bool JsonAt::anyMember(const std::function<bool(std::string key, std::string value)>& test) const {
+  if (!value_.is_object()) return false;
+  for (const auto& [key, value] : value_.items()) {
+    if (test(key, value.is_string() ? value.get<std::string>() : value.dump())) return true;
+  }
+  return false;
+}
+
 JsonAt JsonAt::element(std::size_t i) const {
   return {value_.at(i), path_ + "[" + std::to_string(i) + "]", file_};
 }

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <functional>
 #include <string>
 
 namespace mrpt_polyloc {
@@ -32,6 +33,9 @@ class JsonAt {
   JsonAt member(const char* name) const;
   /// Whether this is an object with such a member.
   bool has(const char* name) const { return value_.is_object() && value_.contains(name); }
+  /// Whether test(key, value) holds for any member of this, with values as texts (JSON's, but for
+  /// strings, which have no quotes). False for what is no object.
+  bool anyMember(const std::function<bool(std::string key, std::string value)>& test) const;
   /// An element of an array, which must be one and long enough.
   JsonAt element(std::size_t i) const;
   /// This as an array, for iteration by element(). \throws FormatError if it is none.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/base/notes.h>
 #include <mrpt_polyloc/geometry/bitmap_cleaning.h>
 #include <mrpt_polyloc/geometry/tracing.h>
@@ -14,7 +15,7 @@ struct GridMapParams {
   GridMapParams() { tracing.max_filled_unknown_area = 0.5; }
 
   BitmapCleaningParams cleaning;
-  /// As its defaults, but specks of unknown cells amid free space up to 0.5 m2 count as free:
+  /// As its defaults, but specks of unknown cells within free space up to 0.5 m2 count as free:
   /// single cells that no ray passed, thousands of them in maps made from scans.
   TracingParams tracing;
 };
@@ -26,7 +27,7 @@ struct GridMapParams {
 /// \throws FormatError naming file and place, also if the map cannot be in metres (see
 /// requireMetres()); InvalidMapError naming the file, with located
 /// defects.
-RepairedMap loadMap(const std::string& path, const GridMapParams& params = {},
-                    Notes* notes = nullptr, double scale = 1.0);
+POLYLOC_EXPORT RepairedMap loadMap(const std::string& path, const GridMapParams& params = {},
+                                   Notes* notes = nullptr, double scale = 1.0);
 
 }  // namespace mrpt_polyloc

@@ -1,11 +1,10 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/io/map_units.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <sstream>
 
 namespace mrpt_polyloc {
 namespace {
@@ -49,12 +48,11 @@ double freeAreaOf(const RawMap& map) {
 
 void requireModestArea(const std::string& path, double area) {
   if (!(area > kGreatestFreeArea) || !std::isfinite(area)) return;
-  std::ostringstream reason;
-  reason.precision(3);
-  reason << "the free space is " << area / 1e6
-         << " square kilometres: is the map in millimetres? Then use --scale 0.001, or --scale F "
-            "for F metres a unit";
-  throw FormatError(path, "", reason.str());
+  throw FormatError(path, "",
+                    formatted("the free space is %.3g square kilometres: is the map in "
+                              "millimetres? Then use --scale 0.001, or --scale F for F metres a "
+                              "unit",
+                              area / 1e6));
 }
 
 }  // namespace
@@ -73,27 +71,22 @@ void scaleMap(double scale, OccupancyBitmap& bitmap) {
 
 void requireMetres(const std::string& path, const RawMap& map) {
   requireModestArea(path, freeAreaOf(map));
-  double low_x = std::numeric_limits<double>::max(), low_y = low_x, high_x = -low_x,
-         high_y = -low_x;
+  BoundingBox box = BoundingBox::empty();
   for (const RawPolygon& polygon : map.polygons) {
-    for (const TPoint2D& p : polygon.outer.vertices) {
-      low_x = std::min(low_x, p.x), high_x = std::max(high_x, p.x);
-      low_y = std::min(low_y, p.y), high_y = std::max(high_y, p.y);
-    }
+    box.include(BoundingBox::of(polygon.outer.vertices));
   }
-  if (low_x > high_x) return;  // nothing there
-  const double extent = std::max(high_x - low_x, high_y - low_y);
-  const bool within = low_x >= -kGreatestDegree && high_x <= kGreatestDegree &&
-                      low_y >= -kGreatestDegree && high_y <= kGreatestDegree;
+  if (box.isEmpty()) return;
+  const BoundingBox globe{{-kGreatestDegree, -kGreatestDegree}, {kGreatestDegree, kGreatestDegree}};
+  const double extent = std::max(box.width(), box.height());
+  const bool within = globe.contains(box.min) && globe.contains(box.max);
   if (!within || !(extent < kLeastExtent) || extent == 0.0) return;
-  std::ostringstream reason;
-  reason.precision(3);
-  reason
-      << "it measures " << high_x - low_x << " by " << high_y - low_y << " at (" << low_x << ", "
-      << low_y << "): are its coordinates degrees of longitude and latitude? A map is in metres: "
-      << "project it, as by: ogr2ogr -t_srs EPSG:32632 OUT.geojson IN.geojson (with the UTM zone "
-      << "of the place); if it is in another unit, use --scale F for F metres a unit";
-  throw FormatError(path, "", reason.str());
+  throw FormatError(
+      path, "",
+      formatted("it measures %.3g by %.3g at (%.3g, %.3g): are its coordinates degrees of "
+                "longitude and latitude? A map is in metres: project it, as by: ogr2ogr -t_srs "
+                "EPSG:32632 OUT.geojson IN.geojson (with the UTM zone of the place); if it is in "
+                "another unit, use --scale F for F metres a unit",
+                box.width(), box.height(), box.min.x, box.min.y));
 }
 
 void requireMetres(const std::string& path, const OccupancyBitmap& bitmap) {

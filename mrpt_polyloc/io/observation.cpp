@@ -27,15 +27,14 @@ void requireFinitePose(const mrpt::obs::CObservation2DRangeScan& observation) {
   }
 }
 
-/// MRPT fills its bool with whatever byte a file holds, and to load any but 0 and 1 is undefined.
+}  // namespace
+
 bool rightToLeft(const mrpt::obs::CObservation2DRangeScan& observation) {
   unsigned char byte = 0;
   static_assert(sizeof(observation.rightToLeft) == sizeof(byte));
   std::memcpy(&byte, &observation.rightToLeft, sizeof(byte));
   return byte != 0;
 }
-
-}  // namespace
 
 LoggedScan toLoggedScan(const mrpt::obs::CObservation2DRangeScan& observation) {
   requireFinitePose(observation);

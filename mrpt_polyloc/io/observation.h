@@ -1,11 +1,16 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/io/sensor_survey.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 namespace mrpt_polyloc {
+
+/// Whether the beams run counterclockwise. MRPT fills its bool with whatever byte a file holds, and
+/// to load any but 0 and 1 is undefined: any but 0 counts as true.
+POLYLOC_EXPORT bool rightToLeft(const mrpt::obs::CObservation2DRangeScan& observation);
 
 /// MRPT's observation as a RangeScan: bearings in the robot frame with the sensor's yaw and the
 /// direction of the sweep (`rightToLeft`) taken in, the sensor's position as the beams' origin.
@@ -17,15 +22,16 @@ namespace mrpt_polyloc {
 /// range is `maxRange`: a live observation says its own. A stamp that is not set is 0.
 /// \throws std::invalid_argument if the sensor's tilt is refused, if its pose or aperture is not
 /// finite, or the aperture is negative.
-RangeScan toRangeScan(const mrpt::obs::CObservation2DRangeScan& observation);
+POLYLOC_EXPORT RangeScan toRangeScan(const mrpt::obs::CObservation2DRangeScan& observation);
 
 /// The same, before it is known what its readings say: for logs, which tell more than one scan.
 /// \throws std::invalid_argument as toRangeScan(), but for the tilt
-LoggedScan toLoggedScan(const mrpt::obs::CObservation2DRangeScan& observation);
+POLYLOC_EXPORT LoggedScan toLoggedScan(const mrpt::obs::CObservation2DRangeScan& observation);
 
 /// Writes what is known of a sensor into an observation, so that all who take it understand it
 /// alike: the maximum range, and hits that say nothing flagged not valid, with a range of 0.
-void applyFacts(const SensorFacts& facts, mrpt::obs::CObservation2DRangeScan& observation);
+POLYLOC_EXPORT void applyFacts(const SensorFacts& facts,
+                               mrpt::obs::CObservation2DRangeScan& observation);
 
 /// A scan as MRPT's observation, swept right to left; the inverse of toRangeScan() up to the single
 /// precision of MRPT's ranges and hits at or above kNoReturnShare of the maximum range, which come
@@ -37,7 +43,8 @@ void applyFacts(const SensorFacts& facts, mrpt::obs::CObservation2DRangeScan& ob
 /// \param yaw of the sensor on the robot, the bearing of its middle [rad]
 /// \param max_range of the sensor [m]; what lies at or beyond it is stored as no-return
 /// \throws std::invalid_argument if a beam is elsewhere (1e-6 rad), or an argument out of range.
-mrpt::obs::CObservation2DRangeScan toObservation(const RangeScan& scan, double aperture, double yaw,
-                                                 double max_range);
+POLYLOC_EXPORT mrpt::obs::CObservation2DRangeScan toObservation(const RangeScan& scan,
+                                                                double aperture, double yaw,
+                                                                double max_range);
 
 }  // namespace mrpt_polyloc

@@ -1,4 +1,6 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
+#include <mrpt_polyloc/geometry/door_passages.h>
 #include <mrpt_polyloc/geometry/room_union.h>
 #include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/file_extension.h>
@@ -10,11 +12,8 @@
 #include <mrpt_polyloc/io/wkt.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace mrpt_polyloc {
 namespace {
@@ -32,23 +31,8 @@ std::string lowerCase(std::string text) {
   return text;
 }
 
-std::string readText(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) throw FormatError(path, "", "no such file");
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw FormatError(path, "", "a directory, not a file");
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FormatError(path, "", "cannot be opened");
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (file.bad()) throw FormatError(path, "", "cannot be read");
-  if (text.empty()) throw FormatError(path, "", "the file is empty");
-  return isCompressed(text) ? GzInputStream(path).readAll() : text;
-}
-
-}  // namespace
-
-RawMap readRawMap(const std::string& path, Notes* notes) {
+/// \param doors as parseGeoJson()
+RawMap readRawMap(const std::string& path, Notes* notes, std::vector<Polyline>* doors) {
   const std::string extension = contentExtension(path);
   if (extension != ".geojson" && extension != ".wkt" && extension != ".json") {
     throw FormatError(
@@ -58,16 +42,27 @@ RawMap readRawMap(const std::string& path, Notes* notes) {
             : (extension.empty() ? "no extension" : "unknown extension " + extension) +
                   ": a polygon map is .geojson, .wkt or .json (HouseExpo)");
   }
-  const std::string text = readText(path);
+  const std::string text = GzInputStream(path).readAll();
   if (extension == ".wkt") return parseWkt(text, path);
-  if (extension == ".geojson") return parseGeoJson(text, path, notes);
+  if (extension == ".geojson") return parseGeoJson(text, path, notes, doors);
   const nlohmann::json document = parseJson(text, path);
   const JsonAt root(document, "", path);
-  if (!root.has("verts") && root.has("type")) return parseGeoJson(text, path, notes);
+  if (!root.has("verts") && root.has("type")) return parseGeoJson(text, path, notes, doors);
   return parseHouseExpo(text, path);
 }
 
-namespace {
+/// Adds the passages of doors that are drawn as lines.
+void openDoors(std::vector<Polyline>& doors, double scale, RawMap& map, Notes* notes) {
+  if (doors.empty()) return;
+  for (Polyline& door : doors) {
+    for (TPoint2D& p : door) p = p * scale;
+  }
+  const std::vector<RawPolygon> passages = doorPassages(map.polygons, doors);
+  map.polygons.insert(map.polygons.end(), passages.begin(), passages.end());
+  addNote(notes, formatted("%zu doors are drawn as lines: %zu passages are opened through walls of "
+                           "up to %g m between rooms",
+                           doors.size(), passages.size(), kThickestDoorWall));
+}
 
 /// Whether all that is wrong with a map is that its polygons are rooms side by side.
 bool isOfRooms(const RawMap& raw, const std::vector<Defect>& defects) {
@@ -94,10 +89,16 @@ RepairedMap uniteAndRepair(const RawMap& raw, const MapInspection& found, Notes*
 
 }  // namespace
 
+RawMap readRawMap(const std::string& path, Notes* notes) {
+  return readRawMap(path, notes, nullptr);
+}
+
 RepairedMap loadPolygonMap(const std::string& path, Notes* notes, double scale) {
-  RawMap raw = readRawMap(path, notes);
+  std::vector<Polyline> doors;
+  RawMap raw = readRawMap(path, notes, &doors);
   scaleMap(scale, raw);
   requireMetres(path, raw);
+  openDoors(doors, scale, raw, notes);
   try {
     MapInspection found = inspectMap(raw);
     if (isOfRooms(raw, found.unrepaired)) return uniteAndRepair(raw, found, notes);

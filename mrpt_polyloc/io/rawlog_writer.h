@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <mrpt_polyloc/localization/scan/Motion.h>
 
 #include <mrpt/math/TPose2D.h>
@@ -13,8 +15,8 @@ namespace mrpt_polyloc {
 /// Writes an MRPT rawlog (gzipped, observations only) of these scans, in this order; the same scans
 /// give the same bytes. An existing file is overwritten.
 /// \throws std::runtime_error naming the file if it cannot be written.
-void writeScansRawlog(const std::string& path,
-                      const std::vector<mrpt::obs::CObservation2DRangeScan>& scans);
+POLYLOC_EXPORT void writeScansRawlog(const std::string& path,
+                                     const std::vector<mrpt::obs::CObservation2DRangeScan>& scans);
 
 /// What a robot did and saw at one moment.
 struct RawlogMoment {

@@ -1,11 +1,11 @@
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/io/SensorTilt.h>
 #include <mrpt_polyloc/io/readings.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -24,14 +24,15 @@ Beam readingToBeam(double bearing, double range, bool valid, const ReadingLimits
 namespace {
 
 [[noreturn]] void refuseTilt(const LoggedScan& scan, const SensorTilt& tilt, double floor_range) {
-  std::ostringstream reason;
-  reason << "scan of sensor '" << scan.label << "': it is tilted by " << tilt.angle() * 180 / kPi
-         << " deg (pitch " << scan.pitch * 180 / kPi << ", roll " << scan.roll * 180 / kPi << ")";
+  std::string reason =
+      "scan of sensor '" + scan.label + "': " +
+      formatted("it is tilted by %g deg (pitch %g, roll %g)", toDegrees(tilt.angle()),
+                toDegrees(scan.pitch), toDegrees(scan.roll));
   if (std::isfinite(floor_range)) {
-    reason << ", so that its beams meet the floor " << floor_range << " m ahead";
+    reason += formatted(", so that its beams meet the floor %g m ahead", floor_range);
   }
-  reason << ": at most 10 deg, and no floor within 3 m, can be projected to a plane";
-  throw std::invalid_argument(reason.str());
+  throw std::invalid_argument(
+      reason + ": at most 10 deg, and no floor within 3 m, can be projected to a plane");
 }
 
 /// The beams of a sensor that is not level.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <mrpt/math/TPoint2D.h>
@@ -33,7 +34,8 @@ struct ReadingLimits {
 /// - Else a hit.
 /// \param bearing in the robot frame [rad]
 /// \return the beam; the range of a no-return is the maximum range
-Beam readingToBeam(double bearing, double range, bool valid, const ReadingLimits& limits);
+POLYLOC_EXPORT Beam readingToBeam(double bearing, double range, bool valid,
+                                  const ReadingLimits& limits);
 
 /// A scan as a log holds it, before it is known what its readings say.
 struct LoggedScan {
@@ -54,7 +56,7 @@ struct LoggedScan {
 };
 
 /// What is asked of the readings of a file, whatever it says itself.
-struct ReadingOptions {
+struct POLYLOC_EXPORT ReadingOptions {
   /// Maximum range of the sensor [m]; not given: what the file says, or shows (see surveySensor()).
   std::optional<double> max_range;
   /// Hits nearer than this say nothing [m]; not given: the beams that see the robot itself say
@@ -69,7 +71,7 @@ struct ReadingOptions {
 /// The scan that a log's readings are, projected to the floor (see SensorTilt).
 /// \param robot_beams by index, whether a beam sees the robot itself and says nothing; may be empty
 /// \throws std::invalid_argument naming the sensor, if its tilt is refused
-RangeScan toRangeScan(const LoggedScan& scan, const ReadingLimits& limits,
-                      const std::vector<bool>& robot_beams = {});
+POLYLOC_EXPORT RangeScan toRangeScan(const LoggedScan& scan, const ReadingLimits& limits,
+                                     const std::vector<bool>& robot_beams = {});
 
 }  // namespace mrpt_polyloc

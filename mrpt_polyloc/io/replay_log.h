@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/io/scan_files.h>
 
 #include <mrpt/obs/CActionCollection.h>
@@ -29,7 +30,7 @@ struct ReplayStep {
 };
 
 /// The noise of movements: of odometry readings, which logs of observations do not state.
-struct OdometryNoise {
+struct POLYLOC_EXPORT OdometryNoise {
   double min_std_xy = 0.04;                   ///< [m] as pf-localization's default
   double min_std_phi = 0.034906585039886592;  ///< [rad] 2 degrees, as pf-localization's default
   /// Actions get this noise, too, instead of the one recorded with them: for odometry that is late
@@ -53,7 +54,9 @@ struct OdometryNoise {
 /// \param options, notes as in loadRawlog()
 /// \throws FormatError as loadRawlog(), and for an action that does not say how the robot moved in
 /// the plane
-std::vector<ReplayStep> loadReplayLog(const std::string& path, const ScanFileOptions& options = {},
-                                      const OdometryNoise& noise = {}, Notes* notes = nullptr);
+POLYLOC_EXPORT std::vector<ReplayStep> loadReplayLog(const std::string& path,
+                                                     const ScanFileOptions& options = {},
+                                                     const OdometryNoise& noise = {},
+                                                     Notes* notes = nullptr);
 
 }  // namespace mrpt_polyloc

@@ -1,7 +1,7 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/io/flat_yaml.h>
 #include <mrpt_polyloc/io/gray_image.h>
-#include <mrpt_polyloc/io/numbers.h>
 #include <mrpt_polyloc/io/ros_map.h>
 
 #include <algorithm>
@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -34,9 +33,7 @@ struct MapInfo {
 };
 
 std::string text(double number) {
-  std::ostringstream out;
-  out << number;
-  return out.str();
+  return formatted("%g", number);
 }
 
 std::string thresholds(const MapInfo& info) {
@@ -227,12 +224,9 @@ std::string sharesText(const MapInfo& info, const GrayImage& image, const Occupa
   std::array<std::size_t, 3> counts{};
   for (const CellState cell : bitmap.cells) ++counts[static_cast<std::size_t>(cell)];
   const auto percent = [&](CellState state) {
-    std::ostringstream out;
-    out.precision(3);
-    out << 100.0 * static_cast<double>(counts[static_cast<std::size_t>(state)]) /
-               static_cast<double>(bitmap.cells.size())
-        << " %";
-    return out.str();
+    return formatted("%.3g %%", 100.0 *
+                                    static_cast<double>(counts[static_cast<std::size_t>(state)]) /
+                                    static_cast<double>(bitmap.cells.size()));
   };
   const auto [low, high] = std::minmax_element(image.values.begin(), image.values.end());
   const double to_byte = 255.0 / static_cast<double>(image.max_value);

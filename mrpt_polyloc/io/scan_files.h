@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/base/notes.h>
 #include <mrpt_polyloc/io/readings.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
@@ -30,7 +31,8 @@ struct ScanFileOptions {
 /// unknown extension, several sensor labels where none is chosen, a label that does not occur, a
 /// sensor that is tilted too much (see SensorTilt), a log without scans. InvalidParamsError for an
 /// option out of range.
-std::vector<RangeScan> loadScans(const std::string& path, const ScanFileOptions& options = {},
-                                 Notes* notes = nullptr);
+POLYLOC_EXPORT std::vector<RangeScan> loadScans(const std::string& path,
+                                                const ScanFileOptions& options = {},
+                                                Notes* notes = nullptr);
 
 }  // namespace mrpt_polyloc

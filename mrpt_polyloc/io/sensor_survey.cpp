@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/io/SensorTilt.h>
 #include <mrpt_polyloc/io/sensor_survey.h>
@@ -8,7 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -43,16 +43,11 @@ bool isRange(double range) {
 }
 
 std::string metres(double x) {
-  std::ostringstream text;
-  text << x << " m";
-  return text.str();
+  return formatted("%g m", x);
 }
 
 std::string percent(double share) {
-  std::ostringstream text;
-  text.precision(2);
-  text << 100.0 * share << " %";
-  return text.str();
+  return formatted("%.2g %%", 100.0 * share);
 }
 
 /// How many readings there are of each range: bins of less than 0.8 %, the upper bits of a float.
@@ -269,11 +264,10 @@ std::vector<bool> findRobotBeams(const Scans& scans, Notes* notes) {
     }
   }
   if (found == 0 || 2 * far_constant >= far_beams) return {};  // none, or the robot stood still
-  std::ostringstream text;
-  text << found << " of " << beams << " beams read the same in nearly all scans, " << least
-       << " to " << most
-       << " m: taken for the robot itself, they say nothing (--min-range M says otherwise)";
-  addNote(notes, text.str());
+  addNote(notes,
+          formatted("%zu of %zu beams read the same in nearly all scans, %g to %g m: taken for the "
+                    "robot itself, they say nothing (--min-range M says otherwise)",
+                    found, beams, least, most));
   return robot;
 }
 
@@ -284,11 +278,9 @@ void noteTilt(const Scans& scans, Notes* notes) {
     greatest = std::max(greatest, tilt.angle());
   }
   if (greatest < kNotedTilt) return;
-  std::ostringstream text;
-  text.precision(3);
-  text << "the sensor is tilted by " << greatest * 180 / kPi
-       << " deg: its readings are projected to the floor's plane";
-  addNote(notes, text.str());
+  addNote(notes, formatted("the sensor is tilted by %.3g deg: its readings are projected to the "
+                           "floor's plane",
+                           toDegrees(greatest)));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/base/notes.h>
 #include <mrpt_polyloc/io/readings.h>
 
@@ -34,11 +35,11 @@ struct SensorFacts {
 ///
 /// Cost: two passes over the readings.
 /// \param notes gets a sentence for all that was assumed; may be null
-SensorFacts surveySensor(const std::vector<const LoggedScan*>& scans, const ReadingOptions& options,
-                         Notes* notes);
+POLYLOC_EXPORT SensorFacts surveySensor(const std::vector<const LoggedScan*>& scans,
+                                        const ReadingOptions& options, Notes* notes);
 
 /// The survey of all sensors of a log, those that change their stated maximum range apart.
-class LogSurvey {
+class POLYLOC_EXPORT LogSurvey {
  public:
   /// \throws InvalidParamsError as ReadingOptions::check()
   LogSurvey(const std::vector<LoggedScan>& scans, const ReadingOptions& options, Notes* notes);
@@ -54,7 +55,8 @@ class LogSurvey {
 /// \param path of the file, for messages
 /// \throws FormatError naming the file and the place of a scan whose sensor's tilt is refused;
 /// InvalidParamsError as ReadingOptions::check()
-std::vector<RangeScan> toRangeScans(const std::string& path, std::vector<LoggedScan> scans,
-                                    const ReadingOptions& options, Notes* notes);
+POLYLOC_EXPORT std::vector<RangeScan> toRangeScans(const std::string& path,
+                                                   std::vector<LoggedScan> scans,
+                                                   const ReadingOptions& options, Notes* notes);
 
 }  // namespace mrpt_polyloc

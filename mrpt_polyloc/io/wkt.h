@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/validation.h>
 
 #include <string>
@@ -13,11 +14,11 @@ namespace mrpt_polyloc {
 /// follow. \param text what the file holds \param file its name, for messages \throws FormatError
 /// naming the file, line and column: other geometries, an SRID of degrees, numbers that are not
 /// finite, anything out of place, a text of nothing.
-RawMap parseWkt(const std::string& text, const std::string& file);
+POLYLOC_EXPORT RawMap parseWkt(const std::string& text, const std::string& file);
 
 /// The map as one line: a POLYGON, or a MULTIPOLYGON if it has several components. Reads back as
 /// exactly the same map.
 /// \throws InvalidMapError if the map has open edges or walls beyond, which WKT cannot say.
-std::string toWkt(const PolygonMap& map);
+POLYLOC_EXPORT std::string toWkt(const PolygonMap& map);
 
 }  // namespace mrpt_polyloc

@@ -4,7 +4,10 @@
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/CellLocalizer.h>
 #include <mrpt_polyloc/localization/MapIndexParts.h>
+#include <mrpt_polyloc/localization/nearest_cells/ViewIndex.h>
+#include <mrpt_polyloc/localization/nearest_cells/ViewTree.h>
 #include <mrpt_polyloc/localization/nearest_cells/cell_views.h>
+#include <mrpt_polyloc/localization/nearest_cells/scan_view.h>
 #include <mrpt_polyloc/localization/ranking/candidate_ranking.h>
 #include <mrpt_polyloc/polar/CirclePlan.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
@@ -69,6 +72,7 @@ struct CellLocalizer::Impl {
     }
     views.emplace(viewsFrom(viewpoints, index->parts().predictor(), params.view.samples,
                             params.view.range, params.threads));
+    if (params.nearest == NearestViews::tree) tree.emplace(*views);
   }
 
   CellLocalizerParams params;
@@ -77,6 +81,7 @@ struct CellLocalizer::Impl {
   double cell_range = 0.0;
   std::vector<TPoint2D> viewpoints;
   std::optional<ViewIndex> views;
+  std::optional<ViewTree> tree;
 };
 
 CellLocalizer::CellLocalizer(MapIndex::Ptr index, CellLocalizerParams params) {
@@ -106,8 +111,8 @@ const std::vector<TPoint2D>& CellLocalizer::viewpoints() const {
   return impl_->viewpoints;
 }
 std::size_t CellLocalizer::indexBytes() const {
-  return impl_->views->bytes() + impl_->viewpoints.capacity() * sizeof(TPoint2D) +
-         impl_->index->bytes();
+  return impl_->views->bytes() + (impl_->tree ? impl_->tree->bytes() : 0) +
+         impl_->viewpoints.capacity() * sizeof(TPoint2D) + impl_->index->bytes();
 }
 
 LocalizationResult CellLocalizer::localize(const RangeScan& scan, const PosePrior& prior,
@@ -138,18 +143,20 @@ LocalizationResult CellLocalizer::localize(const RangeScan& scan, const PosePrio
   std::vector<TPose2D> candidates;
   DifferentPoses different;
   double farthest = std::numeric_limits<double>::infinity();
-  result.statistics.evaluated =
-      impl_->views->visitNearest(query, [&](const ViewIndex::Neighbor& neighbor) {
-        if (candidates.empty()) {
-          farthest = params.distance_share * neighbor.distance + params.distance_margin;
-        }
-        if (neighbor.distance > farthest) return false;
-        const TPoint2D& p = impl_->viewpoints[neighbor.view];
-        TPose2D pose(p.x, p.y, neighbor.rotation);
-        pose.normalizePhi();
-        if (different.isNew(pose)) candidates.push_back(pose);
-        return candidates.size() < params.max_candidates && !budget.isSpent();
-      });
+  const auto take = [&](const ViewIndex::Neighbor& neighbor) {
+    if (candidates.empty()) {
+      farthest = params.distance_share * neighbor.distance + params.distance_margin;
+    }
+    if (neighbor.distance > farthest) return false;
+    const TPoint2D& p = impl_->viewpoints[neighbor.view];
+    TPose2D pose(p.x, p.y, neighbor.rotation);
+    pose.normalizePhi();
+    if (different.isNew(pose)) candidates.push_back(pose);
+    return candidates.size() < params.max_candidates && !budget.isSpent();
+  };
+  result.statistics.evaluated = impl_->tree && ViewTree::serves(query)
+                                    ? impl_->tree->visitNearest(query, take)
+                                    : impl_->views->visitNearest(query, take);
   result.statistics.search_ms = 1e3 * watch.seconds();
 
   const Stopwatch ranking;

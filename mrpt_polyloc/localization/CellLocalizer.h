@@ -1,10 +1,10 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 #include <mrpt_polyloc/localization/MapIndex.h>
 #include <mrpt_polyloc/localization/SearchOptions.h>
-#include <mrpt_polyloc/localization/nearest_cells/ViewIndex.h>
-#include <mrpt_polyloc/localization/nearest_cells/scan_view.h>
+#include <mrpt_polyloc/localization/nearest_cells/ScanViewParams.h>
 #include <mrpt_polyloc/localization/ranking/HypothesisParams.h>
 #include <mrpt_polyloc/localization/scan/PosePrior.h>
 #include <mrpt_polyloc/localization/scan/PoseRefinerParams.h>
@@ -18,7 +18,17 @@
 
 namespace mrpt_polyloc {
 
-struct CellLocalizerParams {
+class ViewIndex;
+
+/// How the nearest views are found; the answers are the same.
+enum class NearestViews {
+  index,  ///< lower bounds of all views in a row, see ViewIndex
+  /// The paper's monotonous bisector tree, see ViewTree. It serves scans that see all around, with
+  /// no heading known; others have no triangle inequality to go by, and are left to the index.
+  tree
+};
+
+struct POLYLOC_EXPORT CellLocalizerParams {
   int threads = 0;  ///< for the views of the cells; 0: all cores
   /// Range of the visibility cells [m], see VisibilityCellsParams. Not given: unlimited if the
   /// cells fit the budget, else the greatest of 0.0625 m times powers of 2^(1/2) at which they do.
@@ -36,6 +46,7 @@ struct CellLocalizerParams {
   double distance_share = 3.0;
   double distance_margin = 1.0;  ///< [m rad^(1/2)]; 0.4 m all around
   std::size_t least_hits = 15;   ///< scans with fewer hits are not searched for
+  NearestViews nearest = NearestViews::index;
   RobustCostParams cost;
   PoseRefinerParams refinement;
   HypothesisParams hypotheses;
@@ -54,7 +65,7 @@ struct CellLocalizerParams {
 /// only the best is a candidate.
 ///
 /// Building prepares the views; localize() is const, thread-safe and deterministic.
-class CellLocalizer {
+class POLYLOC_EXPORT CellLocalizer {
  public:
   /// \throws CellBudgetError if the map has too many cells in the range given or, none given, of
   /// any range; InvalidMapError, InvalidParamsError

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/GlobalLocalizerParams.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 #include <mrpt_polyloc/localization/MapIndex.h>
@@ -16,7 +17,7 @@ namespace mrpt_polyloc {
 ///
 /// Cheap to make, copy and assign; any number may share an index. localize() is const, thread-safe
 /// and deterministic.
-class GlobalLocalizer {
+class POLYLOC_EXPORT GlobalLocalizer {
  public:
   /// Prepares what is missing if the index is a deferred one.
   /// \throws InvalidParamsError, also if the index is null

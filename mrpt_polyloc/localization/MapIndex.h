@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/base/BuildProgress.h>
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
 #include <cstddef>
@@ -13,7 +14,7 @@ namespace mrpt_polyloc {
 
 class MapIndexParts;
 
-struct MapIndexParams {
+struct POLYLOC_EXPORT MapIndexParams {
   /// Side of the search's finest leaves [m]. Smaller ones are bounded more tightly; time of
   /// building and memory grow with the inverse square.
   double leaf_size = 0.25;
@@ -25,14 +26,24 @@ struct MapIndexParams {
   void check() const;
 };
 
+/// What preparing an index will take, on maps of buildings: memory within a factor of 2, time of 6.
+struct MapIndexEstimate {
+  double bytes;        ///< of memory, kept
+  double cpu_seconds;  ///< of one core, without loading the map
+};
+
 /// A map and all that is prepared for it: its triangulation, the edges that are seen from where,
 /// and the tree of the certified search. Made once, and shared: by localizers of any kind, metric
 /// maps, particle seeders.
 ///
 /// Immutable; const calls are thread-safe. What is inside is not for users: see MapIndexParts.
-class MapIndex {
+class POLYLOC_EXPORT MapIndex {
  public:
   using Ptr = std::shared_ptr<const MapIndex>;
+
+  /// What build() would take, from the map's area and borders, without building anything.
+  /// \throws InvalidParamsError
+  static MapIndexEstimate estimate(const PolygonMap& map, const MapIndexParams& params = {});
 
   /// Prepares everything. Progress is told now and then, and may cancel.
   /// \throws InvalidParamsError, InvalidMapError; CancelledError

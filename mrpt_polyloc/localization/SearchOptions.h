@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/search/SearchMetric.h>
 
 #include <atomic>
@@ -8,7 +9,7 @@
 namespace mrpt_polyloc {
 
 /// What one call of a localizer may take, and what it is to return.
-struct SearchOptions {
+struct POLYLOC_EXPORT SearchOptions {
   std::size_t max_hypotheses = 20;  ///< at most so many are returned
   /// Wall time for search and refinement [ms]; 0: no limit. What is not decided by then is not
   /// proven, and the answer never `unique`; it then depends on the machine.

@@ -1,8 +1,11 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
+#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/io/geojson.h>
 #include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
+#include <mrpt_polyloc/mrpt_bridge/IniSection.h>
+#include <mrpt_polyloc/mrpt_bridge/PolygonLikelihood.h>
 #include <mrpt_polyloc/mrpt_bridge/PolygonMapContent.h>
-#include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
 #include <mrpt_polyloc/mrpt_bridge/map_lines.h>
 #include <mrpt_polyloc/mrpt_bridge/wall_matching.h>
 
@@ -170,20 +173,20 @@ CPolygonMap2D::TMapDefinition::TMapDefinition() = default;
 void CPolygonMap2D::TMapDefinition::loadFromConfigFile_map_specific(
     const mrpt::config::CConfigFileBase& source, const std::string& prefix) {
   const std::string section = prefix + "_creationOpts";
-  requireKnownKeys(
-      source, section,
-      {"file", "max_wall_gap", "tolerance_cells", "min_component_area", "max_filled_unknown_area",
-       "enableSaveAs3DObject", "enableObservationLikelihood", "enableObservationInsertion"});
-  file = source.read_string(section, "file", file);
+  const IniSection ini(source, section,
+                       {"file", "scale", "max_wall_gap", "tolerance_cells", "min_component_area",
+                        "max_filled_unknown_area", "enableSaveAs3DObject",
+                        "enableObservationLikelihood", "enableObservationInsertion"});
+  file = ini.text("file", file);
   if (file.empty()) throw InvalidParamsError("no 'file' is given in section '" + section + "'");
-  namingSection(section, [&] {
-    const auto read = [&](const char* name, double& value) {
-      value = readNumber(source, section, name, value);
-    };
-    read("max_wall_gap", grid.cleaning.max_wall_gap);
-    read("tolerance_cells", grid.tracing.tolerance_cells);
-    read("min_component_area", grid.tracing.min_component_area);
-    read("max_filled_unknown_area", grid.tracing.max_filled_unknown_area);
+  const auto read = [&](const char* name, double& value) { value = ini.number(name, value); };
+  read("scale", scale);
+  read("max_wall_gap", grid.cleaning.max_wall_gap);
+  read("tolerance_cells", grid.tracing.tolerance_cells);
+  read("min_component_area", grid.tracing.min_component_area);
+  read("max_filled_unknown_area", grid.tracing.max_filled_unknown_area);
+  namingSection(section, [this] {
+    requirePositive("scale", scale);
     grid.cleaning.check();
     grid.tracing.check();
   });
@@ -191,14 +194,14 @@ void CPolygonMap2D::TMapDefinition::loadFromConfigFile_map_specific(
 }
 
 void CPolygonMap2D::TMapDefinition::dumpToTextStream_map_specific(std::ostream& out) const {
-  out << "file = " << file << "\n";
+  out << "file = " << file << "\nscale = " << formatted("%g", scale) << "\n";
   likelihood.dumpToTextStream(out);
 }
 
 CreatedMap CPolygonMap2D::internal_CreateFromMapDefinition(
     const mrpt::maps::TMetricMapInitializer& definition) {
   const auto& def = dynamic_cast<const TMapDefinition&>(definition);
-  auto map = std::make_unique<CPolygonMap2D>(loadMap(def.file, def.grid).map);
+  auto map = std::make_unique<CPolygonMap2D>(loadMap(def.file, def.grid, nullptr, def.scale).map);
   map->likelihoodOptions = def.likelihood;
   map->genericMapParams = def.genericMapParams;
   return toCreatedMap(std::move(map));

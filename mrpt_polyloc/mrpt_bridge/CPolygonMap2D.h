@@ -1,10 +1,11 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/io/map_files.h>
 #include <mrpt_polyloc/io/mrpt_compat.h>
 #include <mrpt_polyloc/localization/MapIndex.h>
-#include <mrpt_polyloc/mrpt_bridge/PolygonLikelihood.h>
+#include <mrpt_polyloc/mrpt_bridge/TLikelihoodOptions.h>
 
 #include <mrpt/maps/CMetricMap.h>
 #include <mrpt/math/TBoundingBox.h>
@@ -25,7 +26,7 @@ class PolygonMapContent;
 /// loadFromSimpleMap() clears all maps first. Const calls are thread-safe. Copies share the map
 /// and its index, also those that MRPT makes by storing and loading within a process; one that is
 /// loaded otherwise is indexed when it first weighs a scan.
-class CPolygonMap2D : public mrpt::maps::CMetricMap {
+class POLYLOC_EXPORT CPolygonMap2D : public mrpt::maps::CMetricMap {
   DEFINE_SERIALIZABLE(CPolygonMap2D, mrpt_polyloc)
 
  public:
@@ -94,6 +95,7 @@ class CPolygonMap2D : public mrpt::maps::CMetricMap {
 
   MAP_DEFINITION_START(CPolygonMap2D)
   std::string file;    ///< any map that loadMap() reads
+  double scale = 1.0;  ///< metres per unit of the file
   GridMapParams grid;  ///< how a grid becomes polygons
   mrpt_polyloc::TLikelihoodOptions likelihood;
   MAP_DEFINITION_END(CPolygonMap2D)

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <cstddef>
 #include <deque>
 
 namespace mrpt_polyloc {
 
-struct FilterMonitorParams {
+struct POLYLOC_EXPORT FilterMonitorParams {
   /// Healthy steps before the range counts as known; until then nothing is called lost.
   std::size_t least_steps = 10;
   std::size_t window = 100;  ///< healthy steps remembered: places differ, so the range follows
@@ -31,8 +33,8 @@ enum class FilterHealth { learning, healthy, doubtful, lost };
 /// The range of healthy fits is measured on the filter's own healthy steps, so that it holds for
 /// any map class, sensor and likelihood option: the median of the last ones, and 1.4826 times their
 /// median absolute deviation (the standard deviation, were they normal; Rousseeuw and Croux 1993).
-/// Hence a filter that starts wrong and stays wrong is *not* noticed: start it where a search says.
-class FilterMonitor {
+/// So a filter that starts wrong and stays wrong is *not* noticed: start it where a search says.
+class POLYLOC_EXPORT FilterMonitor {
  public:
   /// \throws InvalidParamsError
   explicit FilterMonitor(const FilterMonitorParams& params = {});

@@ -132,7 +132,7 @@ FilterRecovery::Verdict FilterRecovery::update(const CObservation2DRangeScan& sc
         best.weight >= params_.sure_weight && *verdict.best_fit >= monitor_.threshold();
     if (gains && !is_sure && unsure_++ < params_.patience) return verdict;
     unsure_ = 0;
-    monitor_.recovered();  // found, or as well off as can be: either way judged anew
+    monitor_.recovered();  // found, or as well off as can be: either way judged from here on
     if (!gains) return verdict;
   }
   mixIn(seeder_->draw(toSog(*verdict.search), seed), params_.share, particles);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
 #include <mrpt_polyloc/mrpt_bridge/FilterMonitor.h>
@@ -15,7 +16,7 @@
 
 namespace mrpt_polyloc {
 
-struct FilterRecoveryParams {
+struct POLYLOC_EXPORT FilterRecoveryParams {
   FilterMonitorParams monitor;
   /// Share of belief that new hypotheses get when the filter is lost. Half: neither the filter nor
   /// the search is believed beforehand, the scans decide.
@@ -44,14 +45,16 @@ struct FilterRecoveryParams {
 /// The mean over a filter's particles, by weight, of the mean log-likelihood per beam of a scan, a
 /// Laplace density of RobustCost with the default options of CPolygonMap2D: 0 for a perfect fit.
 /// \param judged number of particles that are looked at
-double filterFit(const CPolygonMap2D& map, const mrpt::obs::CObservation2DRangeScan& scan,
-                 const mrpt::poses::CPosePDFParticles& particles, std::size_t judged);
+POLYLOC_EXPORT double filterFit(const CPolygonMap2D& map,
+                                const mrpt::obs::CObservation2DRangeScan& scan,
+                                const mrpt::poses::CPosePDFParticles& particles,
+                                std::size_t judged);
 
 /// Mixes new particles into a filter, with `share` of the belief. The old ones are thinned evenly
 /// by weight, to as many as keep the number of all what it was, but at least half of them.
 /// \param drawn new particles, weights summing to 1
-void mixIn(const std::vector<WeightedPose>& drawn, double share,
-           mrpt::poses::CPosePDFParticles& particles);
+POLYLOC_EXPORT void mixIn(const std::vector<WeightedPose>& drawn, double share,
+                          mrpt::poses::CPosePDFParticles& particles);
 
 /// Keeps a Monte Carlo filter from staying lost: starts it from a search, judges how well each scan
 /// fits, and when the robot is lost searches again and mixes what is found in.
@@ -59,7 +62,7 @@ void mixIn(const std::vector<WeightedPose>& drawn, double share,
 /// Use: start() with the first scan; then after each of the filter's steps update(), and where it
 /// returns that hypotheses were mixed in, weigh the particles with the scan once more
 /// (`executeOn(filter, nullptr, &frame)`). Keeps references to localizer and seeder.
-class FilterRecovery {
+class POLYLOC_EXPORT FilterRecovery {
  public:
   /// \throws InvalidParamsError
   FilterRecovery(const GlobalLocalizer& localizer, const ParticleSeeder& seeder, CPolygonMap2D map,

@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/base/params_check.h>
+#include <mrpt_polyloc/geometry/FreeSpaceSampler.h>
 #include <mrpt_polyloc/localization/MapIndexParts.h>
 #include <mrpt_polyloc/mrpt_bridge/ParticleSeeder.h>
 
@@ -106,12 +107,12 @@ CPosePDFSOG toSog(const LocalizationResult& result) {
 }
 
 ParticleSeeder::ParticleSeeder(const MapIndex::Ptr& index, const ParticleSeederParams& params)
-    : free_space_(triangulationOf(index)), params_(params) {
+    : free_space_(std::make_shared<FreeSpaceSampler>(triangulationOf(index))), params_(params) {
   params_.check();
 }
 
 ParticleSeeder::ParticleSeeder(const PolygonMap& map, const ParticleSeederParams& params)
-    : free_space_(map), params_(params) {
+    : free_space_(std::make_shared<FreeSpaceSampler>(map)), params_(params) {
   params_.check();
 }
 
@@ -137,7 +138,7 @@ std::vector<WeightedPose> ParticleSeeder::draw(const CPosePDFSOG& modes, std::ui
   }
   const double log_weight = std::log(share / static_cast<double>(uniform));
   for (std::size_t k = 0; k < uniform; ++k) {
-    const TPoint2D place = free_space_.draw(random);
+    const TPoint2D place = free_space_->draw(random);
     drawn.push_back({{place.x, place.y, random.uniform(-kPi, kPi)}, log_weight});
   }
   return drawn;

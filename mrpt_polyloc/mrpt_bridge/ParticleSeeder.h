@@ -1,6 +1,7 @@
 #pragma once
 
-#include <mrpt_polyloc/geometry/FreeSpaceSampler.h>
+#include <mrpt_polyloc/base/export.h>
+#include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 #include <mrpt_polyloc/localization/MapIndex.h>
 
@@ -10,11 +11,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace mrpt_polyloc {
 
-struct ParticleSeederParams {
+class FreeSpaceSampler;
+
+struct POLYLOC_EXPORT ParticleSeederParams {
   std::size_t particles = 300;  ///< in all; more where the hypotheses need more, see below
   /// At least so many for each hypothesis, however small its weight: a few would miss the robot's
   /// heading, and the hypothesis be lost by chance.
@@ -35,7 +39,7 @@ struct WeightedPose {
 
 /// The hypotheses as MRPT's sum of Gaussians, weights and covariances kept; no mode if there is no
 /// hypothesis.
-mrpt::poses::CPosePDFSOG toSog(const LocalizationResult& result);
+POLYLOC_EXPORT mrpt::poses::CPosePDFSOG toSog(const LocalizationResult& result);
 
 /// Starts the particles of MRPT's filters where the search says: each hypothesis gets particles in
 /// proportion to its weight, at least `least_per_hypothesis`, drawn from its Gaussian; together
@@ -43,7 +47,7 @@ mrpt::poses::CPosePDFSOG toSog(const LocalizationResult& result);
 ///
 /// MRPT 2.5.8 cannot do this itself: CPosePDFParticles::copyFrom() does nothing for a sum of
 /// Gaussians, and CPosePDFSOG::drawManySamples() throws. Const and thread-safe.
-class ParticleSeeder {
+class POLYLOC_EXPORT ParticleSeeder {
  public:
   /// \throws InvalidParamsError, also if the index is null; InvalidMapError without free space
   explicit ParticleSeeder(const MapIndex::Ptr& index, const ParticleSeederParams& params = {});
@@ -64,7 +68,7 @@ class ParticleSeeder {
             mrpt::poses::CPose3DPDFParticles& particles) const;
 
  private:
-  FreeSpaceSampler free_space_;
+  std::shared_ptr<const FreeSpaceSampler> free_space_;
   ParticleSeederParams params_;
 };
 

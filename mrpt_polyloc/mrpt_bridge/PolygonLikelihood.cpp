@@ -1,10 +1,7 @@
 #include <mrpt_polyloc/base/cpu_dispatch.h>
-#include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/io/observation.h>
+#include <mrpt_polyloc/localization/scan/RobustCost.h>
 #include <mrpt_polyloc/mrpt_bridge/PolygonLikelihood.h>
-#include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
-
-#include <mrpt/config/CConfigFileBase.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +10,6 @@
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <ostream>
 #include <utility>
 #include <vector>
 
@@ -30,7 +26,7 @@ class PreparedScan {
         size_(scan.getScanSize()),
         aperture_(scan.aperture),
         max_range_(scan.maxRange),
-        right_to_left_(scan.rightToLeft),
+        right_to_left_(rightToLeft(scan)),
         pose_(scan.sensorPose) {
     const RangeScan all = toRangeScan(scan);
     if (size_ > 0) ranges_.assign(&scan.getScanRange(0), &scan.getScanRange(0) + size_);
@@ -53,7 +49,7 @@ class PreparedScan {
   /// Whether another preparation would give the same. Ranges by their bits, for the sake of NaN.
   bool isOf(const CObservation2DRangeScan& scan, unsigned decimation) const {
     if (decimation != decimation_ || scan.getScanSize() != size_ || scan.aperture != aperture_ ||
-        scan.maxRange != max_range_ || scan.rightToLeft != right_to_left_ ||
+        scan.maxRange != max_range_ || rightToLeft(scan) != right_to_left_ ||
         scan.sensorPose != pose_) {
       return false;
     }
@@ -119,52 +115,6 @@ double polarMean(const PreparedScan& scan, const PredictedRanges& seen, double c
   }
   return scan.hits.empty() ? 0.0 : sum / static_cast<double>(scan.hits.size());
 }
-
-}  // namespace
-
-void TLikelihoodOptions::check() const {
-  if (metric != "robust" && metric != "polar") {
-    throw InvalidParamsError("metric is '" + metric + "', not 'robust' or 'polar'");
-  }
-  requirePositive("sigma", sigma);
-  requirePositive("independent_beams", independent_beams);
-  requireInRange("decimation", decimation, 1.0, 1e6);
-  cost.check();
-}
-
-void TLikelihoodOptions::loadFromConfigFile(const mrpt::config::CConfigFileBase& source,
-                                            const std::string& section) {
-  requireKnownKeys(source, section,
-                   {"metric", "sigma", "decimation", "independent_beams", "tau_short", "tau_long",
-                    "tau_open", "tau_none", "none_share"});
-  metric = source.read_string(section, "metric", metric);
-  namingSection(section, [&] {
-    const auto read = [&](const char* name, double& value) {
-      value = readNumber(source, section, name, value);
-    };
-    double every = decimation;
-    read("decimation", every);
-    requireInRange("decimation", every, 1.0, 1e6);
-    decimation = static_cast<unsigned>(every);
-    read("sigma", sigma);
-    read("independent_beams", independent_beams);
-    read("tau_short", cost.tau_short);
-    read("tau_long", cost.tau_long);
-    read("tau_open", cost.tau_open);
-    read("tau_none", cost.tau_none);
-    read("none_share", cost.none_share);
-    check();
-  });
-}
-
-void TLikelihoodOptions::dumpToTextStream(std::ostream& out) const {
-  out << "metric = " << metric << "\nsigma = " << sigma << "\ndecimation = " << decimation
-      << "\nindependent_beams = " << independent_beams << "\ntau_short = " << cost.tau_short
-      << "\ntau_long = " << cost.tau_long << "\ntau_open = " << cost.tau_open
-      << "\ntau_none = " << cost.tau_none << "\nnone_share = " << cost.none_share << "\n";
-}
-
-namespace {
 
 /// The prepared form of a scan, kept by the calling thread until another scan comes.
 const PreparedScan& preparedFor(const CObservation2DRangeScan& scan, unsigned decimation) {

@@ -52,13 +52,4 @@ std::vector<double> fourierFeature(const SampledPolarFunction& f, std::size_t or
   return featureOf(std::move(magnitudes), f.squaredNorm());
 }
 
-double featureDistance(const std::vector<double>& a, const std::vector<double>& b) {
-  if (a.size() != b.size())
-    throw InvalidParamsError("features of " + std::to_string(a.size()) + " and " +
-                             std::to_string(b.size()) + " numbers cannot be compared");
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return std::sqrt(sum);
-}
-
 }  // namespace mrpt_polyloc

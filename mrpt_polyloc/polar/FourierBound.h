@@ -22,7 +22,4 @@ namespace mrpt_polyloc {
 std::vector<double> fourierFeature(const PolarFunction& f, std::size_t order);
 std::vector<double> fourierFeature(const SampledPolarFunction& f, std::size_t order);
 
-/// |a - b|, the lower bound. \throws InvalidParamsError if the orders differ.
-double featureDistance(const std::vector<double>& a, const std::vector<double>& b);
-
 }  // namespace mrpt_polyloc

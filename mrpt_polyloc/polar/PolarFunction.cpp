@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/polar/PolarFunction.h>
@@ -6,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -34,9 +34,7 @@ double valueAtEnd(const Piece& piece) {
 }
 
 std::string toText(double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value);
-  return text.data();
+  return formatted("%.9g", value);
 }
 
 std::string toText(const TPoint2D& point) {

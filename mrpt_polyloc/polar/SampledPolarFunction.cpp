@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/polar/SampledPolarFunction.h>
 
 #include <algorithm>
@@ -39,7 +40,8 @@ SampledPolarFunction::SampledPolarFunction(std::vector<float> samples)
       continue;
     }
     if (std::isinf(value) || value < 0.0)
-      throw InvalidParamsError("sample " + std::to_string(i) + " = " + std::to_string(value) +
+      throw InvalidParamsError("sample " + std::to_string(i) + " = " +
+                               formatted("%f", static_cast<double>(value)) +
                                " must be finite and not negative");
     ++valid_count_;
     sum += value;

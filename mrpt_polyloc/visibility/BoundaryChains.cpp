@@ -35,7 +35,7 @@ HalfEdge following(const Triangulation& t, HalfEdge edge, Passage kind) {
 BoundaryChains::BoundaryChains(const Triangulation& triangulation) {
   const BoundingBox& box = triangulation.box();
   origin_ = {0.5 * (box.min.x + box.max.x), 0.5 * (box.min.y + box.max.y)};
-  const double half = 0.5 * std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+  const double half = 0.5 * std::max(box.width(), box.height());
   int exponent = 0;
   std::frexp(half, &exponent);             // half < 2^exponent
   unit_ = std::ldexp(1.0, exponent - 30);  // differences stay below 2^31

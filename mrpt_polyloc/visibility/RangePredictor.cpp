@@ -101,9 +101,7 @@ void RangePredictor::look(const mrpt::math::TPose2D& pose, std::int64_t square,
                           const BeamPattern& beams, Workspace& w, Depths& wall,
                           FloatBlocks* open) const {
   if (open != nullptr) open->assign(0, 0.0F);
-  const bool is_known = pose.x >= box_.min.x && pose.x <= box_.max.x && pose.y >= box_.min.y &&
-                        pose.y <= box_.max.y && std::isfinite(pose.phi);  // false for NaN
-  if (!is_known) return;
+  if (!box_.contains({pose.x, pose.y}) || !std::isfinite(pose.phi)) return;
   const BoundaryChains& chains = index_.chains();
   const ViewFrame frame = frameOf(pose, chains);
   VisibleEdgeIndex::EdgeRuns seen{chains.walls().data(), chains.walls().size(),

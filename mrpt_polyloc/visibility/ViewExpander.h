@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 
 #include <cstdint>
@@ -36,7 +37,7 @@ struct View {
 /// A viewpoint on an edge or vertex is moved into its face by 1e-9 of the way to the centroid.
 ///
 /// Keeps its memory between calls: use one per thread.
-class ViewExpander {
+class POLYLOC_EXPORT ViewExpander {
  public:
   /// \param stop_at_open end the view at open edges too: what is seen of free space
   explicit ViewExpander(const Triangulation& triangulation, bool stop_at_open = false)

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/geometry/orientation.h>
 #include <mrpt_polyloc/visibility/VisibilityCells.h>
@@ -5,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
@@ -79,14 +79,11 @@ double widthOf(const std::vector<TPoint2D>& polygon) {
 }
 
 std::string overBudget(const CellEstimate& estimate, std::size_t budget) {
-  char text[400];
-  std::snprintf(text, sizeof text,
-                "%zu critical segments with %zu crossings make up to %zu visibility cells, more "
-                "than the budget of %zu; they would take about %.0f MB. Limit the range of the "
-                "cells, or use the certified search, which needs none",
-                estimate.windows, estimate.crossings, estimate.cells(), budget,
-                estimate.megabytes());
-  return text;
+  return formatted(
+      "%zu critical segments with %zu crossings make up to %zu visibility cells, more than the "
+      "budget of %zu; they would take about %.0f MB. Limit the range of the cells, or use the "
+      "certified search, which needs none",
+      estimate.windows, estimate.crossings, estimate.cells(), budget, estimate.megabytes());
 }
 
 }  // namespace
@@ -107,7 +104,7 @@ CellEstimate VisibilityCells::estimate(const PolygonMap& map, double range) {
 double VisibilityCells::greatestRange(const PolygonMap& map, std::size_t max_cells) {
   const Triangulation triangulation(withoutWallsBeyond(map));
   const BoundingBox& box = triangulation.box();
-  const double diagonal = std::hypot(box.max.x - box.min.x, box.max.y - box.min.y);
+  const double diagonal = std::hypot(box.width(), box.height());
   // Upwards, so that no count is much longer than the budget is high.
   double greatest = 0.0;
   for (int step = 0;; ++step) {
@@ -206,19 +203,17 @@ double VisibilityCells::violation(std::size_t cell, const TPoint2D& point) const
 template <class Visitor>
 void VisibilityCells::forEachBucket(std::size_t cell, Visitor&& visit) const {
   const BoundingBox& box = triangulation_.box();
-  TPoint2D low = vertex(faces_.first[cell]), high = low;
+  BoundingBox around = BoundingBox::empty();
   for (std::size_t e = faces_.first[cell]; e < faces_.first[cell + 1]; ++e) {
-    const TPoint2D& p = vertex(e);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    around.include(vertex(e));
   }
   const auto index = [this](double length, std::size_t count) {
     return std::min(static_cast<std::size_t>(std::max(length, 0.0) / bucket_size_), count - 1);
   };
-  const std::size_t last_row = index(high.y - box.min.y, bucket_rows_);
-  const std::size_t last_column = index(high.x - box.min.x, bucket_columns_);
-  for (std::size_t row = index(low.y - box.min.y, bucket_rows_); row <= last_row; ++row) {
-    for (std::size_t c = index(low.x - box.min.x, bucket_columns_); c <= last_column; ++c) {
+  const std::size_t last_row = index(around.max.y - box.min.y, bucket_rows_);
+  const std::size_t last_column = index(around.max.x - box.min.x, bucket_columns_);
+  for (std::size_t row = index(around.min.y - box.min.y, bucket_rows_); row <= last_row; ++row) {
+    for (std::size_t c = index(around.min.x - box.min.x, bucket_columns_); c <= last_column; ++c) {
       visit(row * bucket_columns_ + c);
     }
   }
@@ -226,7 +221,7 @@ void VisibilityCells::forEachBucket(std::size_t cell, Visitor&& visit) const {
 
 void VisibilityCells::buildBuckets() {
   const BoundingBox& box = triangulation_.box();
-  const double width = box.max.x - box.min.x, height = box.max.y - box.min.y;
+  const double width = box.width(), height = box.height();
   const double buckets = std::max(1.0, static_cast<double>(size()) / kCellsPerBucket);
   bucket_size_ = std::max(std::sqrt(width * height / buckets), std::max(width, height) / 4096.0);
   bucket_columns_ = static_cast<std::size_t>(width / bucket_size_) + 1;

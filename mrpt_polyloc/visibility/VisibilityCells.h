@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/visibility/critical_segments.h>
 #include <mrpt_polyloc/visibility/segment_arrangement.h>
 
@@ -11,7 +12,7 @@
 namespace mrpt_polyloc {
 
 /// What a decomposition would take, found without building it.
-struct CellEstimate {
+struct POLYLOC_EXPORT CellEstimate {
   std::size_t windows = 0;    ///< critical segments
   std::size_t dividers = 0;   ///< edges of the triangulation, where the range is limited
   std::size_t crossings = 0;  ///< between all of them, counted pair by pair in floating point
@@ -23,7 +24,7 @@ struct CellEstimate {
 
 /// A map with more visibility cells than the budget allows: `what()` gives the count, the memory
 /// and the ways out.
-class CellBudgetError : public std::runtime_error {
+class POLYLOC_EXPORT CellBudgetError : public std::runtime_error {
  public:
   explicit CellBudgetError(const CellEstimate& estimate, std::size_t budget);
   CellEstimate estimate;
@@ -47,7 +48,7 @@ struct VisibilityCellsParams {
 ///
 /// Computed exactly, kept rounded to double: a cell narrower than some 1e-12 of the map's
 /// coordinates may have a polygon without area. Immutable, all queries const and thread-safe.
-class VisibilityCells {
+class POLYLOC_EXPORT VisibilityCells {
  public:
   static constexpr std::int32_t kNone = Triangulation::kNone;
 

@@ -200,12 +200,4 @@ std::vector<TPose2D> alignments(const VisibilitySkeleton& from, const Visibility
   return found;
 }
 
-bool equalUpToTranslation(const VisibilitySkeleton& a, const VisibilitySkeleton& b,
-                          double tolerance) {
-  const std::vector<TPose2D> found = alignments(a, b, tolerance);
-  return std::any_of(found.begin(), found.end(), [&](const TPose2D& motion) {
-    return std::abs(motion.phi) * b.ringLength() <= 2.0 * tolerance * static_cast<double>(b.size());
-  });
-}
-
 }  // namespace mrpt_polyloc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/visibility/ViewExpander.h>
 #include <mrpt_polyloc/visibility/VisibilityCells.h>
 
@@ -18,7 +19,7 @@ namespace mrpt_polyloc {
 /// need not hold any edge in full.
 ///
 /// A value: immutable, in the frame that it was built in.
-class VisibilitySkeleton {
+class POLYLOC_EXPORT VisibilitySkeleton {
  public:
   struct Gap {
     TPoint2D vertex;  ///< seen, where the gap begins [m]
@@ -54,22 +55,20 @@ class VisibilitySkeleton {
 /// The skeleton of a view into free space alone (ViewExpander with stop_at_open), from a viewpoint
 /// that is not in line with two vertices seen. Vertices within `flat` [m] of the line through their
 /// neighbours on the boundary are left out.
-VisibilitySkeleton skeletonOf(const Triangulation& triangulation, const View& view, double flat);
+POLYLOC_EXPORT VisibilitySkeleton skeletonOf(const Triangulation& triangulation, const View& view,
+                                             double flat);
 
 /// The skeleton of a visibility cell, in the map's frame; `expander` is one of the cells'
 /// triangulation that stops at open edges. A view: a few microseconds.
-VisibilitySkeleton skeletonOf(const VisibilityCells& cells, std::size_t cell,
-                              ViewExpander& expander, double flat);
+POLYLOC_EXPORT VisibilitySkeleton skeletonOf(const VisibilityCells& cells, std::size_t cell,
+                                             ViewExpander& expander, double flat);
 
 /// All rigid motions (without reflection) that carry `from` to `to`: each turns by phi about the
 /// origin, then moves by (x, y), by least squares over the vertices. Vertices may then be
 /// `tolerance` apart, as may lines from the points given of the shorter piece, by more the farther
 /// these are off the vertices. More than one for a symmetric skeleton. O(q) each, q gaps.
-std::vector<mrpt::math::TPose2D> alignments(const VisibilitySkeleton& from,
-                                            const VisibilitySkeleton& to, double tolerance);
-
-/// Whether some translation alone carries one to the other.
-bool equalUpToTranslation(const VisibilitySkeleton& a, const VisibilitySkeleton& b,
-                          double tolerance);
+POLYLOC_EXPORT std::vector<mrpt::math::TPose2D> alignments(const VisibilitySkeleton& from,
+                                                           const VisibilitySkeleton& to,
+                                                           double tolerance);
 
 }  // namespace mrpt_polyloc

@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
 
@@ -81,15 +82,15 @@ VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, Lists lis
 /// \throws InvalidParamsError
 void VisibleEdgeIndex::layGrid(const BoundingBox& box, double square_size) {
   if (!(square_size > 0.0)) {
-    throw InvalidParamsError("square_size: " + std::to_string(square_size) + " is not positive");
+    throw InvalidParamsError("square_size: " + formatted("%f", square_size) + " is not positive");
   }
   corner_ = box.min;
   lists_.square_size = square_size;
-  const double columns = std::floor((box.max.x - box.min.x) / square_size) + 1;
-  const double rows = std::floor((box.max.y - box.min.y) / square_size) + 1;
+  const double columns = std::floor(box.width() / square_size) + 1;
+  const double rows = std::floor(box.height() / square_size) + 1;
   constexpr double kMostSquares = 1e12;  // a directory of a gigabyte
   if (columns * rows > kMostSquares || std::max(columns, rows) > kMostSquares / 1e4) {
-    throw InvalidParamsError("square_size: " + std::to_string(square_size) +
+    throw InvalidParamsError("square_size: " + formatted("%f", square_size) +
                              " gives too many squares for a map of this size");
   }
   grid_ = TiledGrid(static_cast<int>(columns), static_cast<int>(rows));
@@ -98,11 +99,9 @@ void VisibleEdgeIndex::layGrid(const BoundingBox& box, double square_size) {
 /// The squares that the box of a face meets.
 VisibleEdgeIndex::SquareRange VisibleEdgeIndex::rangeOf(const Triangulation& t,
                                                         const Triangulation::Face& face) const {
-  TPoint2D low = t.vertices()[static_cast<std::size_t>(face.vertex[0])], high = low;
+  BoundingBox box = BoundingBox::empty();
   for (const std::int32_t v : face.vertex) {
-    const TPoint2D& p = t.vertices()[static_cast<std::size_t>(v)];
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    box.include(t.vertices()[static_cast<std::size_t>(v)]);
   }
   const auto column = [this](double x) {
     return std::clamp(static_cast<int>((x - corner_.x) / lists_.square_size), 0,
@@ -111,7 +110,7 @@ VisibleEdgeIndex::SquareRange VisibleEdgeIndex::rangeOf(const Triangulation& t,
   const auto row = [this](double y) {
     return std::clamp(static_cast<int>((y - corner_.y) / lists_.square_size), 0, grid_.rows() - 1);
   };
-  return {column(low.x), column(high.x), row(low.y), row(high.y)};
+  return {column(box.min.x), column(box.max.x), row(box.min.y), row(box.max.y)};
 }
 
 Square VisibleEdgeIndex::square(int column, int row) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 
 #include <cstdint>
@@ -41,6 +42,7 @@ CriticalSegments criticalSegments(const Triangulation& triangulation,
                                   double range = kUnlimitedRange);
 
 /// Where a segment ends [m], rounded.
-TPoint2D endOf(const CriticalSegment& segment, const std::vector<TPoint2D>& vertices);
+POLYLOC_EXPORT TPoint2D endOf(const CriticalSegment& segment,
+                              const std::vector<TPoint2D>& vertices);
 
 }  // namespace mrpt_polyloc

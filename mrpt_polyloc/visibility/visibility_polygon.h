@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/visibility/ViewExpander.h>
 
 #include <vector>
@@ -10,6 +11,7 @@ namespace mrpt_polyloc {
 /// viewpoint; windows are the edges between pieces that do not meet. Regularised: antennae seen
 /// along a line have no area and are left out. Vertices that repeat are given once.
 /// Empty for an empty view.
-std::vector<TPoint2D> visibilityPolygon(const Triangulation& triangulation, const View& view);
+POLYLOC_EXPORT std::vector<TPoint2D> visibilityPolygon(const Triangulation& triangulation,
+                                                       const View& view);
 
 }  // namespace mrpt_polyloc

@@ -1,4 +1,5 @@
 #include "ProgramTest.h"
+#include <mrpt_polyloc/io/polygon_files.h>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -85,6 +86,20 @@ TEST_F(PolylocCalibrate, ConstantsDoNotDependOnThreads) {
     return readFile(path("out/calibration.json"));
   };
   EXPECT_EQ(constants("1"), constants("2"));
+}
+
+TEST_F(PolylocCalibrate, ScalesItsMapsAndRefusesThoseThatDoNotFit) {
+  makeSets();
+  ASSERT_EQ(calibrate().code, 0);
+  const std::string in_metres = readFile(path("out/calibration.json"));
+  for (const char* name : {"hall.wkt", "cross.wkt", "corridor.wkt"}) {  // half metres
+    write(name, toText(loadPolygonMap(path(name), nullptr, 2.0).map, ".wkt"));
+  }
+  ASSERT_EQ(calibrate({"--scale", "0.5"}).code, 0);
+  EXPECT_EQ(readFile(path("out/calibration.json")), in_metres);
+  const Outcome refused = calibrate({"--scale", "0.5", "--max-memory", "0.2"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("hall.wkt"), HasSubstr("--max-memory")));
 }
 
 TEST_F(PolylocCalibrate, ACalibrationDecidesWhatIsRefused) {

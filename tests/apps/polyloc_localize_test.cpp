@@ -1,12 +1,9 @@
-#include "ProgramTest.h"
+#include "PolylocLocalizeTest.h"
 #include <mrpt_polyloc/evaluation/truth.h>
-#include <mrpt_polyloc/io/rawlog_writer.h>
 
 #include <gmock/gmock.h>
-#include <mrpt/core/Clock.h>
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <numeric>
 
@@ -15,149 +12,10 @@ namespace {
 
 using testing::AllOf;
 using testing::Contains;
-using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-using testing::StartsWith;
-using testing::UnorderedElementsAre;
-
-const char* const kHeader =
-    "row,stamp,status,rank,x,y,phi_deg,weight,cost,std_x,std_y,std_phi_deg,ms,match,listed,cov_xy";
-
-constexpr std::size_t kColumns = 16, kTimeColumn = 12;
-
-/// CSV without the time.
-std::string withoutTimes(const std::string& csv) {
-  std::string rest;
-  for (const std::string& line : linesOf(csv)) {
-    std::vector<std::string> fields = fieldsOf(line);
-    if (fields.size() > kTimeColumn) fields[kTimeColumn].clear();
-    for (const std::string& field : fields) rest += field + ",";
-    rest += "\n";
-  }
-  return rest;
-}
-
-class PolylocLocalize : public ProgramTest {
- protected:
-  Outcome localize(const std::vector<std::string>& more,
-                   const std::string& scans = "sim/scans.rawlog") const {
-    std::vector<std::string> arguments = {"--map", roomFile(), "--scans", path(scans)};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run("polyloc-localize", arguments);
-  }
-
-  /// The fields of the rows of rank 1, by row.
-  static std::map<int, std::vector<std::string>> firstAnswers(const std::string& csv) {
-    std::map<int, std::vector<std::string>> answers;
-    const std::vector<std::string> lines = linesOf(csv);
-    for (std::size_t i = 1; i < lines.size(); ++i) {
-      const std::vector<std::string> fields = fieldsOf(lines[i]);
-      if (fields[3] == "1") answers[std::stoi(fields[0])] = fields;
-    }
-    return answers;
-  }
-
-  /// A rawlog of scans with so many beams each.
-  std::string scansOfBeams(const std::vector<std::size_t>& counts) const {
-    std::vector<mrpt::obs::CObservation2DRangeScan> scans;
-    for (const std::size_t count : counts) {
-      mrpt::obs::CObservation2DRangeScan scan;
-      scan.sensorLabel = "LASER";
-      scan.timestamp = mrpt::Clock::fromDouble(1e9 + static_cast<double>(scans.size()));
-      scan.aperture = count > 1 ? 3.0f : 0.0f;
-      scan.maxRange = 20.0f;
-      scan.resizeScanAndAssign(count, 1.5f, true);
-      scans.push_back(scan);
-    }
-    writeScansRawlog(path("few.rawlog"), scans);
-    return "few.rawlog";
-  }
-};
-
-TEST_F(PolylocLocalize, KeepsItsIndexInAFile) {
-  simulate("sim");
-  const Outcome plain = localize({});
-  const Outcome writes = localize({"--index", path("room.index")});
-  ASSERT_EQ(writes.code, 0) << writes.err;
-  ASSERT_TRUE(std::filesystem::exists(path("room.index")));
-  const Outcome reads = localize({"--index", path("room.index")});
-  ASSERT_EQ(reads.code, 0) << reads.err;
-  EXPECT_EQ(withoutTimes(writes.out), withoutTimes(plain.out));
-  EXPECT_EQ(withoutTimes(reads.out), withoutTimes(plain.out));
-}
-
-TEST_F(PolylocLocalize, ExplainsWhatItMakesOfMapAndScans) {
-  simulate("sim");
-  const Outcome outcome = localize({"--explain"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, IsEmpty());
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("free space    36.90 m2 in 1 parts"), HasSubstr("hits"),
-                                 HasSubstr("odd: no reading is a no-return")));
-  EXPECT_THAT(localize({"--explain", "--max-range", "2"}).out,
-              AllOf(HasSubstr("nothing within 2.00 m"), HasSubstr("odd: the range is short")));
-  EXPECT_EQ(localize({"--explain", "--method", "exact"}).code, 2);
-  write("bad.wkt", "POLYGON ((");
-  EXPECT_EQ(run("polyloc-localize",
-                {"--map", path("bad.wkt"), "--scans", path("sim/scans.rawlog"), "--explain"})
-                .code,
-            1);
-}
-
-TEST_F(PolylocLocalize, TakesLimitsOfTheRange) {
-  simulate("sim");
-  const std::string plain = withoutTimes(localize({}).out);
-  EXPECT_NE(withoutTimes(localize({"--max-range", "1.5"}).out), plain);
-  EXPECT_NE(withoutTimes(localize({"--min-range", "1.5"}).out), plain);
-  EXPECT_EQ(withoutTimes(localize({"--max-range", "1000", "--min-range", "0"}).out), plain);
-  for (const char* bad : {"0", "-1", "inf", "x"}) {
-    EXPECT_EQ(localize({"--max-range", bad}).code, 2) << bad;
-  }
-  EXPECT_EQ(localize({"--min-range", "-1"}).code, 2);
-  EXPECT_EQ(localize({"--max-range", "1", "--min-range", "2"}).code, 1);
-}
-
-TEST_F(PolylocLocalize, UsesTheWholePartOfALogThatIsCutShort) {
-  simulate("sim");
-  const std::string whole = readFile(path("sim/scans.rawlog"));
-  write("cut.rawlog", whole.substr(0, whole.size() - 20));
-  const Outcome outcome = localize({}, "cut.rawlog");
-  EXPECT_EQ(outcome.code, 0);
-  EXPECT_THAT(outcome.err, AllOf(StartsWith("polyloc-localize: "),
-                                 HasSubstr("cut.rawlog: note: it is cut short")));
-  const Outcome strict = localize({"--strict"}, "cut.rawlog");
-  EXPECT_EQ(strict.code, 1);
-  EXPECT_THAT(strict.err, HasSubstr("truncated"));
-}
-
-TEST_F(PolylocLocalize, ScalesAMapInMillimetres) {
-  simulate("sim");
-  write("mm.wkt", "POLYGON ((0 0, 4000 0, 4000 3000, 0 3000))");
-  const auto with = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"--map", path("mm.wkt"), "--scans",
-                                          path("sim/scans.rawlog")};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run("polyloc-localize", arguments);
-  };
-  const Outcome refused = with({});
-  EXPECT_EQ(refused.code, 1);
-  EXPECT_THAT(refused.err, AllOf(HasSubstr("mm.wkt"), HasSubstr("--scale 0.001")));
-  EXPECT_EQ(with({"--scale", "0.001"}).code, 0);
-  EXPECT_EQ(with({"--scale", "0"}).code, 2);
-}
-
-TEST_F(PolylocLocalize, RefusesAFileThatIsNotItsIndex) {
-  simulate("sim");
-  write("bad.index", "no index at all");
-  const Outcome outcome = localize({"--index", path("bad.index")});
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("bad.index"), HasSubstr("not a search index")));
-  write("empty.index", "");
-  EXPECT_EQ(localize({"--index", path("empty.index")}).code, 1);
-  EXPECT_EQ(localize({"--index", "/no/such/folder/room.index"}).code, 1);
-}
 
 TEST_F(PolylocLocalize, AnswersWithinATimeBudget) {
   simulate("sim");
@@ -254,23 +112,6 @@ TEST_F(PolylocLocalize, AListCutShortSaysHowMuchOfThePosteriorItHolds) {
   }
 }
 
-TEST_F(PolylocLocalize, RowsChoosesScansAndClips) {
-  simulate("sim");
-  const Outcome outcome = localize({"--rows", "10-99,3"});
-  ASSERT_EQ(outcome.code, 0);
-  std::vector<int> rows;
-  for (const auto& answer : firstAnswers(outcome.out)) rows.push_back(answer.first);
-  EXPECT_THAT(rows, ElementsAre(3, 10, 11));
-}
-
-TEST_F(PolylocLocalize, RowsOutOfRangeFail) {
-  simulate("sim");
-  const Outcome outcome = localize({"--rows", "12-20"});
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("scans.rawlog"), HasSubstr("--rows 12-20"),
-                                 HasSubstr("rows 0 to 11")));
-}
-
 TEST_F(PolylocLocalize, ResultsDoNotDependOnThreadsOrRuns) {
   simulate("sim", {"--occluders", "2"});
   const std::string once = withoutTimes(localize({"--threads", "1"}).out);
@@ -336,17 +177,6 @@ TEST_F(PolylocLocalize, TheNearestCellsHonourCompassAndPlaceToo) {
   EXPECT_EQ(firstPose({"--near", "100,100,1"})[3], "0");
 }
 
-TEST_F(PolylocLocalize, ScansWithoutInformationHaveOneRowOfRankZero) {
-  const Outcome outcome = localize({}, scansOfBeams({0, 1}));
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_THAT(lines, SizeIs(3));
-  EXPECT_THAT(lines[1], StartsWith("0,1000000000.000000,too_few_beams,0,,,,,,,,,"));
-  EXPECT_THAT(lines[2], StartsWith("1,1000000001.000000,too_few_beams,0,,,,,,,,,"));
-  EXPECT_THAT(fieldsOf(lines[1]), SizeIs(kColumns));
-  EXPECT_EQ(lines[1].substr(lines[1].size() - 10), ",0.0000,0,");  // match, listed, no covariance
-}
-
 TEST_F(PolylocLocalize, WritesCsvPictureAndIni) {
   simulate("sim");
   const Outcome outcome = localize({"--rows", "0-2", "-o", path("out.csv"), "--svg",
@@ -386,148 +216,17 @@ TEST_F(PolylocLocalize, NoIniWithoutALocalizedScan) {
   EXPECT_THAT(files(), ElementsAre("few.rawlog", "room.wkt"));
 }
 
-TEST_F(PolylocLocalize, BadScanFilesFailWithAMessage) {
-  const auto expectFailure = [&](const std::string& scans, const std::string& reason) {
-    const Outcome outcome = localize({}, scans);
-    EXPECT_EQ(outcome.code, 1) << scans;
-    EXPECT_THAT(outcome.err,
-                AllOf(HasSubstr("polyloc-localize: "), HasSubstr(scans), HasSubstr(reason)));
-    EXPECT_THAT(outcome.out, IsEmpty());
-  };
-  expectFailure("missing.rawlog", "no such file");
-  expectFailure("missing.log", "no such file");
-  write("scans.bag", "x");
-  expectFailure("scans.bag", "unknown extension");
-  write("empty.rawlog", "");
-  expectFailure("empty.rawlog", "empty");
-  write("empty.log", "");
-  expectFailure("empty.log", "");
-  write("foreign.rawlog", "no rawlog at all");
-  expectFailure("foreign.rawlog", "");
-  write("fov.log", "FLASER 3 1.0 1.0 1.0 0 0 0 0 0 0 1.0 host 1.0\n");
-  expectFailure("fov.log", "--laser-fov");
-}
-
-TEST_F(PolylocLocalize, LaserFovSaysWhatACarmenLogDoesNot) {
-  write("fov.log", "FLASER 3 1.0 1.0 1.0 0 0 0 0 0 0 1.0 host 1.0\n");
-  const Outcome outcome = localize({"--laser-fov", "180"}, "fov.log");
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(linesOf(outcome.out), SizeIs(2));
-}
-
-TEST_F(PolylocLocalize, AnUnknownSensorLabelFails) {
-  simulate("sim");
-  EXPECT_EQ(localize({"--sensor", "LASER", "--rows", "0"}).code, 0);
-  const Outcome outcome = localize({"--sensor", "REAR"});
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("REAR"));
-}
-
-/// A corridor with two equal niches at its ends, and what is seen from the bottom of either: the
-/// corridor's far wall through the niche's mouth.
-TEST_F(PolylocLocalize, ExactlyTwoNichesCannotBeToldApart) {
-  const std::string map =
-      write("niches.wkt",
-            "POLYGON ((0 0, 12 0, 12 2, 11 2, 11 5, 10 5, 10 2, 6 2, 6 2.7, 5 2.7, 5 2, 2 2, 2 5, "
-            "1 5, 1 2, 0 2, 0 0))\n");
-  // From (1.5, 4): the mouth's corners are 2 m below, the far wall 4 m.
-  const std::string view =
-      write("view.wkt", "\nPOLYGON ((-1 -4, 1 -4, 0.5 -2, 0.5 1, -0.5 1, -0.5 -2, -1 -4))\n");
-  const auto posesOf = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"--map", map, "--scans", view, "--method", "exact"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = run("polyloc-localize", arguments);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    std::vector<std::string> poses;
-    const std::vector<std::string> lines = linesOf(outcome.out);
-    for (std::size_t i = 1; i < lines.size(); ++i) {
-      const std::vector<std::string> fields = fieldsOf(lines[i]);
-      EXPECT_EQ(fields[2], "ambiguous");
-      poses.push_back(fields[4] + " " + fields[5] + " " + fields[6]);
-    }
-    return poses;
-  };
-  const auto both = ElementsAre("1.5000 4.0000 0.000", "10.5000 4.0000 0.000");
-  EXPECT_THAT(posesOf({"--compass", "0"}), both);
-  EXPECT_THAT(posesOf({}), both);
-
-  write("truth.tum", "0 10.5 4 0 0 0 0 1\n");
-  const Outcome outcome = run("polyloc-eval", {"--map", map, "--scans", view, "--method", "exact",
-                                               "--truth", path("truth.tum"), "-o", path("out")});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(readFile(path("out/summary.json")), HasSubstr("\"top5\": 1.0"));
-}
-
-TEST_F(PolylocLocalize, TheShippedNichesHaveTwoAnswersAndOnlyTwo) {
-  const std::string datasets = POLYLOC_SOURCE_DIR "/datasets/";
-  const std::string map = datasets + "niches.wkt";
-  for (const bool has_compass : {true, false}) {
-    std::vector<std::string> arguments = {
-        "--map", map, "--scans", datasets + "niches_query.wkt", "--method", "exact"};
-    if (has_compass) arguments.insert(arguments.end(), {"--compass", "0"});
-    const Outcome outcome = run("polyloc-localize", arguments);
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    const std::vector<std::string> lines = linesOf(outcome.out);
-    ASSERT_EQ(lines.size(), 3U) << outcome.out;
-    std::vector<std::string> places;
-    for (std::size_t i = 1; i < lines.size(); ++i) {
-      const std::vector<std::string> fields = fieldsOf(lines[i]);
-      EXPECT_EQ(fields[3], std::to_string(i));
-      places.push_back(fields[4] + " " + fields[5]);
-      EXPECT_NEAR(std::stod(fields[6]), 0.0, 1e-3);
-    }
-    EXPECT_THAT(places, UnorderedElementsAre("4.2500 -3.2500", "13.2500 -3.2500"));
+TEST_F(PolylocLocalize, TheTreeFindsTheNearestCellsThatTheIndexFinds) {
+  // All around, and half of it: there the tree leaves the answer to the index.
+  for (const char* fov : {"360", "180"}) {
+    simulate("sim", {"--fov", fov});
+    const Outcome index = localize({"--method", "cells"});
+    const Outcome tree = localize({"--method", "cells", "--nearest", "tree"});
+    ASSERT_EQ(tree.code, 0) << tree.err;
+    EXPECT_EQ(withoutTimes(tree.out), withoutTimes(index.out)) << fov;
   }
-  // The query is what the map's own view from there is.
-  const Outcome view = run("polyloc-map", {map, "--view", "4.25,-3.25", "-o", path("view.wkt")});
-  EXPECT_EQ(view.code, 0) << view.err;
-  EXPECT_EQ(readFile(path("view.wkt")), readFile(datasets + "niches_query.wkt"));
-}
-
-TEST_F(PolylocLocalize, ManyPolygonsAreAnsweredAsOneIs) {
-  // So many that the map's skeletons are prepared for them.
-  const std::string datasets = POLYLOC_SOURCE_DIR "/datasets/";
-  const std::string query = readFile(datasets + "niches_query.wkt");
-  std::string many;
-  for (int i = 0; i < 1500; ++i) many += query;
-  const std::vector<std::string> arguments = {
-      "--map", datasets + "niches.wkt", "--scans", write("many.wkt", many), "--method", "exact"};
-  const Outcome outcome = run("polyloc-localize", arguments);
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 3001U);
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const std::vector<std::string> fields = fieldsOf(lines[i]);
-    EXPECT_EQ(fields[2], "ambiguous");
-    EXPECT_EQ(fields[4] + " " + fields[5], i % 2 == 1 ? "4.2500 -3.2500" : "13.2500 -3.2500");
-  }
-}
-
-TEST_F(PolylocLocalize, PolygonsThatCannotBeSeenFail) {
-  const auto expectFailure = [&](const std::string& text, const std::string& reason) {
-    const std::string view = write("view.wkt", text);
-    const Outcome outcome =
-        run("polyloc-localize", {"--map", roomFile(), "--scans", view, "--method", "exact"});
-    EXPECT_EQ(outcome.code, 1) << text;
-    EXPECT_THAT(outcome.err, HasSubstr(reason));
-    EXPECT_THAT(outcome.out, IsEmpty());
-  };
-  expectFailure("", "holds no polygon");
-  expectFailure("\nPOLYGON ((1 1, 2 1, 2 2, 1 x))\n", "line 2");
-  expectFailure("\nPOLYGON EMPTY\n", "line 2: expected one POLYGON");
-  expectFailure("POLYGON ((-3 -3, 3 -3, 3 3, -3 3), (1 1, 1 2, 2 2))", "with holes");
-  expectFailure("POLYGON ((0 0, 3 0, 3 3))", "at the robot itself");
-  expectFailure("POLYGON ((1 1, 3 1, 3 3, 1 3))", "line 1: ");
-}
-
-TEST_F(PolylocLocalize, UnwritableOutputFailsBeforeTheSearch) {
-  const std::string room = roomFile();
-  for (const char* option : {"-o", "--svg", "--pf-ini"}) {
-    const Outcome outcome = localize({option, room + "/out"}, "missing.rawlog");
-    EXPECT_EQ(outcome.code, 1);
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr(room + "/out"), HasSubstr("Not a directory")));
-  }
-  EXPECT_THAT(files(), ElementsAre("room.wkt"));
+  EXPECT_EQ(localize({"--nearest", "tree"}).code, 2);
+  EXPECT_EQ(localize({"--method", "cells", "--nearest", "list"}).code, 2);
 }
 
 }  // namespace

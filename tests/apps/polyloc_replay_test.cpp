@@ -3,6 +3,7 @@
 #include "tests/support/data_dir.h"
 #include <mrpt_polyloc/evaluation/truth.h>
 #include <mrpt_polyloc/io/map_files.h>
+#include <mrpt_polyloc/io/polygon_files.h>
 
 #include <gmock/gmock.h>
 #include <mrpt/opengl/COpenGLScene.h>
@@ -64,6 +65,29 @@ class PolylocReplay : public ProgramTest {
 
   const Drive drive_ = driveThroughRoom(40);
 };
+
+TEST_F(PolylocReplay, ScalesTheMapOfTheSearchAndRefusesOneThatDoesNotFit) {
+  ini("map=halves.wkt\nparticles=100\n");
+  write("halves.wkt", toText(loadPolygonMap(path("room.wkt"), nullptr, 2.0).map, ".wkt"));
+  writeActionLog(path("drive.rawlog"), drive_);
+  write("truth.tum", tumTruth(drive_));
+  const std::vector<std::string> judged = {"--truth", path("truth.tum"), "--scale"};
+  const auto successes = [&](const char* scale) {
+    std::vector<std::string> arguments = judged;
+    arguments.emplace_back(scale);
+    const Outcome outcome = replay(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return summary()["success"].get<int>();
+  };
+  EXPECT_EQ(successes("0.5"), 1);
+  EXPECT_EQ(successes("1"), 0);  // --scale wins over the ini
+  ini("map=halves.wkt\nscale=0.5 # m\nparticles=100\n");
+  EXPECT_EQ(replay({"--truth", path("truth.tum")}).code, 0);
+  EXPECT_EQ(summary()["success"], 1);
+  const Outcome refused = replay({"--max-memory", "0.2"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("halves.wkt"), HasSubstr("--max-memory")));
+}
 
 TEST_F(PolylocReplay, FollowsTheRobotFromTheFirstScan) {
   ini("particles=200\nreport_steps=0,7\n", "3DSceneFrequency=20\n");

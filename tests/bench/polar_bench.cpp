@@ -1,8 +1,9 @@
 // Polar coordinate metric: ns per pair of views and per merged interval.
 
+#include "tests/support/certified_rotation.h"
+#include "tests/support/feature_distance.h"
 #include <mrpt_polyloc/polar/FourierBound.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
-#include <mrpt_polyloc/polar/exact/ExactPolarMetric.h>
 
 #include <benchmark/benchmark.h>
 
@@ -80,7 +81,8 @@ void fourierFeatureDistance(benchmark::State& state) {
   for (const auto& view : randomViews(360)) features.push_back(fourierFeature(view, 16));
   std::size_t i = 0;
   for (auto _ : state)
-    benchmark::DoNotOptimize(featureDistance(features[i % 64], features[(7 * i + 1) % 64])), ++i;
+    benchmark::DoNotOptimize(test::featureDistance(features[i % 64], features[(7 * i + 1) % 64])),
+        ++i;
 }
 BENCHMARK(fourierFeatureDistance);
 

@@ -84,7 +84,7 @@ void run(const char* map_file, const char* rawlog_file) {
     if (!scan) continue;
     if (particles.empty()) {
       // begin: start
-      const mrpt_polyloc::GlobalLocalizer localizer(map.index());  // shared, not built anew
+      const mrpt_polyloc::GlobalLocalizer localizer(map.index());  // shared, not built again
       const auto result = localizer.localize(mrpt_polyloc::toRangeScan(*scan));
       const mrpt_polyloc::ParticleSeeder seeder(map.index());
       for (const auto& drawn : seeder.draw(mrpt_polyloc::toSog(result), /*seed=*/1)) {

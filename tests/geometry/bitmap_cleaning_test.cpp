@@ -104,8 +104,8 @@ TEST(BitmapCleaning, JoinsTheDotsOfSlantedWalls) {
       if (column % 4 == 0) cellAt(bitmap, column, 2 + rise * column / 4) = CellState::occupied;
     }
     EXPECT_TRUE(canBePassed(bitmap));
-    const OccupancyBitmap mended = cleanBitmap(bitmap, gapsOnly(6.0));
-    EXPECT_FALSE(canBePassed(mended)) << toArt(bitmap) << "\n" << toArt(mended);
+    const OccupancyBitmap repaired = cleanBitmap(bitmap, gapsOnly(6.0));
+    EXPECT_FALSE(canBePassed(repaired)) << toArt(bitmap) << "\n" << toArt(repaired);
     EXPECT_TRUE(canBePassed(cleanBitmap(bitmap, gapsOnly(3.0))));
   }
 }
@@ -189,7 +189,7 @@ TEST(BitmapCleaning, OnRandomBitmapsFollowsItsRuleAndKeepsKnownCells) {
     const OccupancyBitmap bitmap =
         seed % 2 == 0 ? noiseBitmap(24, 18, 0.3, 0.06, seed) : blobBitmap(24, 18, 12, seed);
     const double gap = 2.0 + seed % 4;
-    const OccupancyBitmap mended = cleanBitmap(bitmap, gapsOnly(gap));
+    const OccupancyBitmap repaired = cleanBitmap(bitmap, gapsOnly(gap));
     BitmapCleaningParams both = gapsOnly(gap);
     both.ragged_passes = 2;
     const OccupancyBitmap smooth = cleanBitmap(bitmap, both);
@@ -198,11 +198,11 @@ TEST(BitmapCleaning, OnRandomBitmapsFollowsItsRuleAndKeepsKnownCells) {
         const CellState before = bitmap.at(column, row);
         const bool fills = before == CellState::unknown && hasFreeNeighbour(bitmap, column, row) &&
                            liesBetweenWalls(bitmap, column, row, gap);
-        ASSERT_EQ(mended.at(column, row), fills ? CellState::occupied : before)
+        ASSERT_EQ(repaired.at(column, row), fills ? CellState::occupied : before)
             << column << " " << row << "\n"
             << toArt(bitmap);
-        if (mended.at(column, row) != CellState::unknown) {
-          ASSERT_EQ(smooth.at(column, row), mended.at(column, row));
+        if (repaired.at(column, row) != CellState::unknown) {
+          ASSERT_EQ(smooth.at(column, row), repaired.at(column, row));
         } else {
           ASSERT_NE(smooth.at(column, row), CellState::occupied);
         }
@@ -214,9 +214,9 @@ TEST(BitmapCleaning, OnRandomBitmapsFollowsItsRuleAndKeepsKnownCells) {
 TEST(BitmapCleaning, KeepsThePlaceAndTakesAnyBitmap) {
   OccupancyBitmap bitmap = bitmapFromArt({"#?#", "..."});
   bitmap.pose_map_bitmap = {3, 4, 0.5};
-  const OccupancyBitmap mended = cleanBitmap(bitmap, gapsOnly(2.0));
-  EXPECT_EQ(mended.pose_map_bitmap, bitmap.pose_map_bitmap);
-  EXPECT_EQ(mended.resolution, 1.0);
+  const OccupancyBitmap repaired = cleanBitmap(bitmap, gapsOnly(2.0));
+  EXPECT_EQ(repaired.pose_map_bitmap, bitmap.pose_map_bitmap);
+  EXPECT_EQ(repaired.resolution, 1.0);
   EXPECT_TRUE(cleanBitmap(OccupancyBitmap{}).cells.empty());
   bitmap.cells.pop_back();  // tracing complains, not this
   EXPECT_EQ(cleanBitmap(bitmap, gapsOnly(2.0)).cells, bitmap.cells);

@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 namespace mrpt_polyloc::test {
 namespace {
 
@@ -39,12 +42,12 @@ TEST(PolygonFiles, NamesFilesThatAreMissingEmptyOrNoFiles) {
   EXPECT_EQ(readError("/no/such/map.wkt"), "/no/such/map.wkt: no such file");
   for (const char* extension : {".wkt", ".geojson", ".json"}) {
     const TempFile empty(extension, "");
-    EXPECT_EQ(readError(empty.path()), empty.path() + ": the file is empty");
+    EXPECT_EQ(readError(empty.path()), empty.path() + ": empty file");
   }
   const std::string folder =
       (std::filesystem::temp_directory_path() / "polyloc_test_folder.wkt").string();
   std::filesystem::create_directory(folder);
-  EXPECT_EQ(readError(folder), folder + ": a directory, not a file");
+  EXPECT_EQ(readError(folder), folder + ": is a directory, not a file");
   std::filesystem::remove(folder);
 }
 
@@ -80,6 +83,45 @@ TEST(PolygonFiles, UnitesRoomsSideBySide) {
   notes.clear();
   EXPECT_EQ(loadPolygonMap(apart.path(), &notes).map.components().size(), 2U);
   EXPECT_TRUE(notes.empty());
+}
+
+TEST(PolygonFiles, OpensDoorsThatAreDrawnAsLines) {
+  // Two rooms with a wall of `gap` between them, in units of 1 / scale metres, and a line in it.
+  const auto plan = [](double gap, const std::string& properties, double unit = 1.0) {
+    const auto ring = [unit](double x0, double x1) {
+      const auto at = [unit](double x, double y) {
+        return "[" + std::to_string(x / unit) + "," + std::to_string(y / unit) + "]";
+      };
+      return R"({"type":"Feature","properties":null,"geometry":{"type":"Polygon","coordinates":[[)" +
+             at(x0, 0) + "," + at(x1, 0) + "," + at(x1, 8) + "," + at(x0, 8) + "," + at(x0, 0) +
+             "]]}},";
+    };
+    const std::string x = std::to_string((5.0 + 0.5 * gap) / unit);
+    return R"({"type":"FeatureCollection","features":[)" + ring(0, 5) + ring(5 + gap, 10 + gap) +
+           R"({"type":"Feature","properties":)" + properties +
+           R"(,"geometry":{"type":"LineString","coordinates":[[)" + x + "," +
+           std::to_string(3.0 / unit) + "],[" + x + "," + std::to_string(3.9 / unit) + "]]}}]}";
+  };
+  for (const char* says : {R"({"type": "Door"})", R"({"door": "yes"})", R"({"door": true})"}) {
+    const TempFile file(".geojson", plan(0.2, says));
+    Notes notes;
+    const PolygonMap map = loadPolygonMap(file.path(), &notes).map;
+    EXPECT_EQ(map.components().size(), 1U) << says;
+    EXPECT_NEAR(map.area(), 80.0 + 0.9 * 0.2, 1e-5);  // the union is rounded
+    EXPECT_TRUE(map.contains({5.1, 3.5}));
+    EXPECT_FALSE(map.contains({5.1, 2.9}));
+    EXPECT_THAT(notes, testing::Contains(HasSubstr("1 passages are opened")));
+  }
+  const TempFile small(".geojson", plan(0.2, R"({"door": true})", 0.001));
+  EXPECT_EQ(loadPolygonMap(small.path(), nullptr, 0.001).map.components().size(), 1U);
+  // A wall that is too thick, and lines of which nothing says that they are doors.
+  for (const auto& [gap, says] : {std::pair{0.6, R"({"door": true})"},
+                                  {0.2, R"({"door": "no"})"},
+                                  {0.2, R"({"layer": "walls"})"},
+                                  {0.2, "null"}}) {
+    const TempFile file(".geojson", plan(gap, says));
+    EXPECT_EQ(loadPolygonMap(file.path()).map.components().size(), 2U) << gap << says;
+  }
 }
 
 TEST(PolygonFiles, RefusesWhatIsNotInMetres) {

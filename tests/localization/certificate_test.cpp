@@ -1,3 +1,4 @@
+#include "tests/support/brute_force_cost.h"
 #include "tests/support/random_maps.h"
 #include "tests/support/simulated_scans.h"
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
@@ -18,41 +19,6 @@ namespace mrpt_polyloc::test {
 namespace {
 
 using mrpt::math::TPose2D;
-
-/// The search cost, by rays cast against every edge in double.
-class BruteForceCost {
- public:
-  BruteForceCost(const PolygonMap& map, const RangeScan& scan,
-                 SearchMetric metric = SearchMetric::robust)
-      : rays_(map),
-        beams_(BandQuery(scan, GlobalLocalizerParams{}.search_cost, metric).beams),
-        cost_(GlobalLocalizerParams{}.search_cost),
-        metric_(metric) {}
-
-  double operator()(const TPose2D& pose_map_beams) const {
-    double sum = 0.0;
-    for (const Beam& beam : beams_) {
-      const RayHit hit =
-          rays_.cast({pose_map_beams.x, pose_map_beams.y}, pose_map_beams.phi + beam.bearing);
-      if (metric_ == SearchMetric::polar) {
-        const double reach = 127.5;
-        const double off = std::min(hit.wall, reach) - std::min(beam.range, reach);
-        sum += off * off;
-        continue;
-      }
-      sum += static_cast<double>(
-          cost_(beam, static_cast<float>(hit.wall), static_cast<float>(hit.open)));
-    }
-    const double mean = sum / static_cast<double>(beams_.size());
-    return metric_ == SearchMetric::polar ? std::sqrt(mean) : mean;
-  }
-
- private:
-  BruteForceRays rays_;
-  std::vector<Beam> beams_;
-  RobustCost cost_;
-  SearchMetric metric_;
-};
 
 bool holds(const PoseRegion& region, const TPose2D& pose) {
   const double window = std::remainder(region.last_heading - region.first_heading, 2 * kPi);

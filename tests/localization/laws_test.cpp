@@ -4,12 +4,14 @@
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/scan/AllowedPoses.h>
+#include <mrpt_polyloc/localization/scan/PoseRefiner.h>
 
 #include <gtest/gtest.h>
 
 #include <random>
+#include <vector>
 
-/// What holds for every answer, on random buildings amid clutter.
+/// What holds for every answer, on random buildings with clutter.
 namespace mrpt_polyloc::test {
 namespace {
 
@@ -53,6 +55,35 @@ TEST(Laws, NoHypothesisHasItsSensorBehindAWall) {
               << beams.x << " " << beams.y;
         }
       });
+}
+
+TEST(Laws, RefinementStaysWhereTheSensorMayBe) {
+  // The robot stands in unknown space, a little farther beyond the border than is allowed: all
+  // walls are known, so that the scan fits best where it was taken.
+  const std::vector<TPoint2D> walls = {{8, 0}, {11, 0}, {11, 5}, {8, 5}};
+  Ring border = wallRing({{0, 0}, {8, 0}, {8, 5}, {3, 5}, {3, 4}, {0, 4}});
+  border.kinds[1] = EdgeKind::open;
+  const PolygonMap map({{border, {}}}, {walls});
+  const PolygonMap real = mapOf({{0, 0}, {11, 0}, {11, 5}, {3, 5}, {3, 4}, {0, 4}});
+  const Triangulation triangulation(map);
+  const RangePredictor predictor(triangulation, RangePredictor::kSquareSize, 1);
+  const GlobalLocalizer localizer(map);
+  std::mt19937 random(23);
+  std::uniform_real_distribution<double> depth(0.72, 0.9), y(1.0, 4.0), angle(-kPi, kPi);
+  const auto is_forbidden = [&](const TPose2D& beams) {
+    return !triangulation.isFreeOrBeside({beams.x, beams.y}, AllowedPoses::kBeside);
+  };
+  std::size_t drawn_out = 0;
+  for (int i = 0; i < 20; ++i) {
+    const TPose2D truth{8.0 + depth(random), y(random), angle(random)};
+    const RangeScan scan = simulatedScan(real, truth);
+    const TPose2D start{7.9, truth.y, truth.phi};
+    drawn_out += is_forbidden(PoseRefiner(predictor, scan).refine(start).pose_map_beams);
+    for (const Hypothesis& h : localizer.localize(scan).hypotheses) {
+      EXPECT_FALSE(is_forbidden(h.pose_map_robot)) << i;
+    }
+  }
+  EXPECT_GT(drawn_out, 5U);  // else nothing was tested
 }
 
 TEST(Laws, ACorrectPriorMakesNoScanUnknownAndIsNeverLeft) {

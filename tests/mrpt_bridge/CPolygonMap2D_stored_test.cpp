@@ -75,7 +75,7 @@ TEST(PolygonMap2D, ComplainsOfABadIni) {
                           "tau_long=-1", "tau_open=-1", "tau_none=0.1m", "none_share=-0.5"}) {
     const std::string name(bad, std::string(bad).find('='));
     EXPECT_THAT(complaint(iniFor(good.path(), bad)),
-                testing::AllOf(testing::HasSubstr("_likelihoodOpts'"), testing::HasSubstr(name)))
+                testing::AllOf(testing::HasSubstr("_likelihoodOpts"), testing::HasSubstr(name)))
         << bad;
   }
   const std::string section = "[M_polygonMap2D_00_creationOpts]\n";

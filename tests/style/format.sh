@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # format.sh ROOT: every source must be as clang-format 14 leaves it (other versions differ); exits
-# 77 (skipped) where that version is not installed. To mend: clang-format-14 -i FILES.
+# 77 (skipped) where that version is not installed. To fix: clang-format-14 -i FILES.
 set -euo pipefail
 cd "${1:?usage: format.sh ROOT}"
 for program in clang-format-14 clang-format; do

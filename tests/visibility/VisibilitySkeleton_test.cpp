@@ -46,6 +46,15 @@ VisibilitySkeleton moved(const VisibilitySkeleton& skeleton, double angle, const
   return VisibilitySkeleton(std::move(gaps));
 }
 
+/// Whether some translation alone carries one to the other.
+bool equalUpToTranslation(const VisibilitySkeleton& a, const VisibilitySkeleton& b,
+                          double tolerance) {
+  const auto found = alignments(a, b, tolerance);
+  return std::any_of(found.begin(), found.end(), [&](const auto& motion) {
+    return std::abs(motion.phi) * b.ringLength() <= 2.0 * tolerance * static_cast<double>(b.size());
+  });
+}
+
 VisibilitySkeleton mirrored(const VisibilitySkeleton& skeleton) {
   std::vector<Gap> gaps;
   const std::size_t q = skeleton.size();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/exact/ExactAnswers.h>
@@ -10,7 +11,7 @@
 
 namespace mrpt_polyloc {
 
-struct ExactLocalizerParams {
+struct POLYLOC_EXPORT ExactLocalizerParams {
   /// How far vertices of a polygon may be off [m]: rounding, not noise.
   double tolerance = 1e-6;
 
@@ -24,7 +25,7 @@ struct ExactLocalizerParams {
 /// The longest wall of the polygon that begins or ends at a vertex of the map is laid on every
 /// border edge; each pose found so is kept if the polygon seen from it agrees. Open edges end the
 /// view as walls do.
-class ExactLocalizer {
+class POLYLOC_EXPORT ExactLocalizer {
  public:
   /// \throws InvalidParamsError
   explicit ExactLocalizer(const PolygonMap& map, ExactLocalizerParams params = {});

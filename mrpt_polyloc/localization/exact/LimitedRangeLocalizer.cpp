@@ -72,6 +72,10 @@ LimitedRangeLocalizer::LimitedRangeLocalizer(const PolygonMap& map, ExactLocaliz
   }
 }
 
+std::size_t LimitedRangeLocalizer::bytes() const {
+  return triangulation_.bytes() + edges_.capacity() * sizeof(edges_.front());
+}
+
 LimitedAnswers LimitedRangeLocalizer::localize(
     const LimitedView& view, const std::optional<PosePrior::Compass>& compass) const {
   PosePrior prior;

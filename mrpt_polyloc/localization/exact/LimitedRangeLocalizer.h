@@ -1,41 +1,24 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/exact/ExactLocalizer.h>
+#include <mrpt_polyloc/localization/exact/LimitedAnswers.h>
 #include <mrpt_polyloc/localization/exact/LimitedView.h>
 #include <mrpt_polyloc/localization/exact/clear_stretches.h>
 
 #include <mrpt/math/TPose2D.h>
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace mrpt_polyloc {
 
-/// All poses from which a view of limited range is seen. Where it holds a corner, these are points;
-/// where it holds but one wall or two parallel ones, the robot may move along them; where it holds
-/// nothing, it may stand anywhere far enough from every border.
-struct LimitedAnswers {
-  struct Segment {
-    TPoint2D from, to;  ///< of the robot in the map, both ends with it [m]
-    double heading;     ///< at every point of it [rad]
-  };
-  /// All points of free space that are no nearer to its border than the range, at any heading.
-  struct Region {
-    double clearance;  ///< the range [m]
-    TPoint2D inside;   ///< one point of it, as far from the border as found
-  };
-  std::vector<mrpt::math::TPose2D> points;  ///< sorted by x, y and heading
-  std::vector<Segment> segments;            ///< sorted by x and y of `from`, and heading
-  std::optional<Region> region;
-
-  bool empty() const { return points.empty() && segments.empty() && !region; }
-};
-
 /// Exact localization where sight ends at a known range: ExactLocalizer for LimitedView. Open edges
 /// end the view as walls do.
-class LimitedRangeLocalizer {
+class POLYLOC_EXPORT LimitedRangeLocalizer {
  public:
   /// \throws InvalidParamsError
   explicit LimitedRangeLocalizer(const PolygonMap& map, ExactLocalizerParams params = {});
@@ -51,6 +34,9 @@ class LimitedRangeLocalizer {
   /// \throws InvalidParamsError as LimitedPolygon, or for a bad compass
   LimitedAnswers localize(const LimitedView& view,
                           const std::optional<PosePrior::Compass>& compass = {}) const;
+
+  double tolerance() const { return tolerance_; }  ///< [m]
+  std::size_t bytes() const;                       ///< memory of what was prepared
 
   /// Distance of a point of free space from its border [m]; negative outside. O(n).
   double clearance(const TPoint2D& point) const;

@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/localization/exact/LimitedView.h>
@@ -12,7 +13,7 @@ namespace mrpt_polyloc {
 namespace {
 
 std::string toText(const TPoint2D& p) {
-  return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
+  return formatted("(%f, %f)", p.x, p.y);
 }
 
 /// The shares of an edge between which it is within the range; false if nowhere.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/exact/ObservedPolygon.h>
 
 #include <cstddef>
@@ -17,11 +18,11 @@ struct LimitedView {
 };
 
 /// The part of a visibility polygon around the origin that lies within a range. O(n).
-LimitedView withinRange(const std::vector<TPoint2D>& polygon, double range);
+POLYLOC_EXPORT LimitedView withinRange(const std::vector<TPoint2D>& polygon, double range);
 
 /// A LimitedView with its windows told from its walls, as ObservedPolygon does: in pieces, walls
 /// and arcs, counterclockwise.
-class LimitedPolygon {
+class POLYLOC_EXPORT LimitedPolygon {
  public:
   using Piece = ObservedPolygon::Wall;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/visibility/VisibilitySkeleton.h>
 
 #include <mrpt/math/TPoint2D.h>
@@ -13,7 +14,7 @@ namespace mrpt_polyloc {
 ///
 /// An edge of which the farther end lies within `tolerance` of the ray through the nearer one is a
 /// window, or too narrow to matter; all others are walls, seen from their free side.
-class ObservedPolygon {
+class POLYLOC_EXPORT ObservedPolygon {
  public:
   /// A wall as it is seen: on the line normal . x = distance, over the directions from `begin` to
   /// the begin of the next wall.
@@ -62,11 +63,11 @@ class ObservedPolygon {
 /// Whether two views agree: in every direction, the point seen in one lies within `limit` of the
 /// line seen in the other, but for sectors that are at most a few `limit` wide where the nearer
 /// view ends (a window that turns with the observer, a gap that is just closed). O(p + q).
-bool agree(const ObservedPolygon& a, const ObservedPolygon& b, double limit);
+POLYLOC_EXPORT bool agree(const ObservedPolygon& a, const ObservedPolygon& b, double limit);
 
 /// The same of views in pieces, of which one may be of limited range: where it has an arc, the
 /// other has one too, or goes on at least as far.
-bool agree(const std::vector<ObservedPolygon::Wall>& a, const std::vector<ObservedPolygon::Wall>& b,
-           double limit);
+POLYLOC_EXPORT bool agree(const std::vector<ObservedPolygon::Wall>& a,
+                          const std::vector<ObservedPolygon::Wall>& b, double limit);
 
 }  // namespace mrpt_polyloc

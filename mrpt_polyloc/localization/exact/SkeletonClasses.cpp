@@ -113,12 +113,6 @@ SkeletonClasses::SkeletonClasses(const VisibilityCells& cells, double tolerance)
   }
 }
 
-std::vector<SkeletonClasses::Embedding> SkeletonClasses::embeddings(std::size_t index) const {
-  std::vector<Embedding> all;
-  forEachEmbedding(index, [&](const Embedding& e) { all.push_back(e); });
-  return all;
-}
-
 VisibilitySkeleton SkeletonClasses::skeleton(std::size_t index, ViewExpander& expander) const {
   return skeletonAt(classes_[index].place, expander);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/visibility/VisibilityCells.h>
 #include <mrpt_polyloc/visibility/VisibilitySkeleton.h>
 
@@ -19,7 +20,7 @@ namespace mrpt_polyloc {
 ///
 /// Skeletons are not kept but found again from a representative: memory is O(1) a cell. Immutable;
 /// refers to the cells, which must outlive it.
-class SkeletonClasses {
+class POLYLOC_EXPORT SkeletonClasses {
  public:
   /// Where a skeleton of the class is in the map.
   struct Embedding {
@@ -37,8 +38,7 @@ class SkeletonClasses {
   SkeletonClasses(const VisibilityCells& cells, double tolerance);
 
   std::size_t size() const { return classes_.size(); }
-  /// Sorted by cell.
-  std::vector<Embedding> embeddings(std::size_t index) const;
+  /// Calls visit(embedding) for those of a class, sorted by cell.
   template <class Visitor>
   void forEachEmbedding(std::size_t index, Visitor&& visit) const {
     const std::size_t end =

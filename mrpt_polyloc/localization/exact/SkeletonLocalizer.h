@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/exact/ExactLocalizer.h>
 #include <mrpt_polyloc/localization/exact/SkeletonClasses.h>
 
@@ -14,7 +15,7 @@ namespace mrpt_polyloc {
 ///
 /// Where the polygon is in doubt (ObservedPolygon::isClear), or nothing is found, ExactLocalizer is
 /// asked: then, and only then, a query costs as much as one without preprocessing.
-class SkeletonLocalizer {
+class POLYLOC_EXPORT SkeletonLocalizer {
  public:
   /// Visibility cells at most, unless told otherwise: a few seconds and some 250 MB while they are
   /// built.

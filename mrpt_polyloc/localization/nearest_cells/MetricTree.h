@@ -14,8 +14,8 @@
 
 namespace mrpt_polyloc {
 
-/// Monotonous bisector tree: nearest neighbours in any metric space, with few evaluations of a dear
-/// metric (Noltemeier, Verbarg, Zirkelbach).
+/// Monotonous bisector tree: nearest neighbours in any metric space, with few evaluations of
+/// a metric that takes long (Noltemeier, Verbarg, Zirkelbach).
 ///
 /// Every node splits its objects by which of two pivots is closer; the half of a pivot keeps it as
 /// one of its own pivots. So the radius around a pivot never grows on the way down, and a query
@@ -77,24 +77,57 @@ class MetricTree {
   /// Evaluations of the metric that building took.
   std::size_t buildEvaluations() const { return build_evaluations_; }
 
+  /// Calls visit(index, distance) from the nearest object on, equally far ones by their index,
+  /// until it returns false. \returns evaluations of the metric
+  template <class Query, class Visit>
+  std::size_t visitNearest(const Query& query, Visit visit) const {
+    std::size_t evaluations = 0;
+    if (objects_.empty()) return evaluations;
+    std::priority_queue<Neighbor, std::vector<Neighbor>, Farther> known;  // the nearest on top
+    const auto evaluate = [&](std::size_t index) {
+      ++evaluations;
+      const double distance = metric_(query, objects_[index]);
+      known.push({index, std::max(0.0, distance - radii_[index])});
+      return distance;
+    };
+    std::priority_queue<Open> visits;
+    const double to_root = evaluate(root_);
+    if (!nodes_.empty()) visits.push({0.0, 0, to_root});
+    while (!known.empty() || !visits.empty()) {
+      // What is known is next if no node can hold one that is as near.
+      if (!known.empty() && (visits.empty() || known.top().distance < visits.top().bound)) {
+        if (!visit(known.top().index, known.top().distance)) break;
+        known.pop();
+        continue;
+      }
+      const Open next = visits.top();
+      visits.pop();
+      const Node& node = nodes_[static_cast<std::size_t>(next.node)];
+      const double to_home = next.to_home, to_away = evaluate(node.away);
+      // By the triangle inequality through the pivot, and because the other pivot is farther. Up to
+      // four evaluated distances take part: from pivot and object, when building and now.
+      const auto push = [&](std::int32_t child, double to_pivot, double to_other, double radius,
+                            double largest) {
+        if (child == kNone) return;
+        visits.push({std::max({next.bound, to_pivot - radius - 4.0 * metric_error_,
+                               0.5 * (to_pivot - to_other) - largest - 4.0 * metric_error_}),
+                     child, to_pivot});
+      };
+      push(node.home_child, to_home, to_away, node.home_radius, node.home_largest);
+      push(node.away_child, to_away, to_home, node.away_radius, node.away_largest);
+    }
+    return evaluations;
+  }
+
   /// The `count` nearest objects (all, if there are fewer). Equally far ones: those of least index.
   template <class Query>
   Result nearest(const Query& query, std::size_t count) const {
     Result result;
     if (count == 0) return result;
-    std::priority_queue<Neighbor, std::vector<Neighbor>, Closer> best;  // the farthest on top
-    const auto reach = [&] {
-      return best.size() < count ? std::numeric_limits<double>::infinity() : best.top().distance;
-    };
-    search(query, reach, result.evaluations, [&](const Neighbor& neighbor) {
-      if (best.size() == count) {
-        if (!Closer()(neighbor, best.top())) return;
-        best.pop();
-      }
-      best.push(neighbor);
+    result.evaluations = visitNearest(query, [&](std::size_t index, double distance) {
+      result.neighbors.push_back({index, distance});
+      return result.neighbors.size() < count;
     });
-    for (; !best.empty(); best.pop()) result.neighbors.push_back(best.top());
-    std::reverse(result.neighbors.begin(), result.neighbors.end());
     return result;
   }
 
@@ -102,21 +135,19 @@ class MetricTree {
   template <class Query>
   Result within(const Query& query, double distance) const {
     Result result;
-    search(
-        query, [=] { return distance; }, result.evaluations,
-        [&](const Neighbor& neighbor) {
-          if (neighbor.distance <= distance) result.neighbors.push_back(neighbor);
-        });
-    std::sort(result.neighbors.begin(), result.neighbors.end(), Closer());
+    result.evaluations = visitNearest(query, [&](std::size_t index, double found) {
+      if (found <= distance) result.neighbors.push_back({index, found});
+      return found <= distance;
+    });
     return result;
   }
 
  private:
   static constexpr std::int32_t kNone = -1;
 
-  struct Closer {
+  struct Farther {
     bool operator()(const Neighbor& a, const Neighbor& b) const {
-      return a.distance < b.distance || (a.distance == b.distance && a.index < b.index);
+      return a.distance > b.distance || (a.distance == b.distance && a.index > b.index);
     }
   };
 
@@ -136,11 +167,11 @@ class MetricTree {
   };
 
   /// A node that is still to be searched.
-  struct Visit {
+  struct Open {
     double bound;
     std::int32_t node;
     double to_home;
-    bool operator<(const Visit& other) const { return bound > other.bound; }  // least on top
+    bool operator<(const Open& other) const { return bound > other.bound; }  // least on top
   };
 
   double evaluateForBuild(std::size_t a, std::size_t b) {
@@ -200,40 +231,6 @@ class MetricTree {
     }
     tasks.push_back(std::move(away));
     tasks.push_back(std::move(home));
-  }
-
-  /// Calls report(neighbor) for all objects that may be within reach(), best bounds first.
-  template <class Query, class Reach, class Report>
-  void search(const Query& query, Reach reach, std::size_t& evaluations, Report report) const {
-    if (objects_.empty()) return;
-    const auto evaluate = [&](std::size_t index) {
-      ++evaluations;
-      const double distance = metric_(query, objects_[index]);
-      report(Neighbor{index, std::max(0.0, distance - radii_[index])});
-      return distance;
-    };
-    std::priority_queue<Visit> visits;
-    const double to_root = evaluate(root_);
-    if (!nodes_.empty()) visits.push({0.0, 0, to_root});
-    while (!visits.empty()) {
-      const Visit visit = visits.top();
-      visits.pop();
-      if (visit.bound > reach()) return;
-      const Node& node = nodes_[static_cast<std::size_t>(visit.node)];
-      const double to_home = visit.to_home, to_away = evaluate(node.away);
-      // By the triangle inequality through the pivot, and because the other pivot is farther. Up to
-      // four evaluated distances take part: from pivot and object, when building and now.
-      const auto push = [&](std::int32_t child, double to_pivot, double to_other, double radius,
-                            double largest) {
-        if (child == kNone) return;
-        const double bound =
-            std::max({visit.bound, to_pivot - radius - 4.0 * metric_error_,
-                      0.5 * (to_pivot - to_other) - largest - 4.0 * metric_error_});
-        if (bound <= reach()) visits.push({bound, child, to_pivot});
-      };
-      push(node.home_child, to_home, to_away, node.home_radius, node.home_largest);
-      push(node.away_child, to_away, to_home, node.away_radius, node.away_largest);
-    }
   }
 
   std::vector<Object> objects_;

@@ -26,14 +26,10 @@ bool isInside(const std::vector<TPoint2D>& convex, const TPoint2D& p) {
 /// Appends the lattice points inside a cell that are not next to its representative.
 void addLatticePoints(const std::vector<TPoint2D>& cell, const TPoint2D& representative,
                       double spacing, std::vector<TPoint2D>& viewpoints) {
-  TPoint2D low = cell.front(), high = low;
-  for (const TPoint2D& p : cell) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  if (std::hypot(high.x - low.x, high.y - low.y) <= spacing) return;
-  for (double row = std::ceil(low.y / spacing); row * spacing <= high.y; ++row) {
-    for (double column = std::ceil(low.x / spacing); column * spacing <= high.x; ++column) {
+  const BoundingBox box = BoundingBox::of(cell);
+  if (std::hypot(box.width(), box.height()) <= spacing) return;
+  for (double row = std::ceil(box.min.y / spacing); row * spacing <= box.max.y; ++row) {
+    for (double column = std::ceil(box.min.x / spacing); column * spacing <= box.max.x; ++column) {
       const TPoint2D p{column * spacing, row * spacing};
       const double away = std::hypot(p.x - representative.x, p.y - representative.y);
       if (away >= 0.5 * spacing && isInside(cell, p)) viewpoints.push_back(p);

@@ -1,24 +1,13 @@
 #pragma once
 
+#include <mrpt_polyloc/localization/nearest_cells/ScanViewParams.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 #include <mrpt_polyloc/polar/SampledPolarFunction.h>
 
-#include <cstddef>
 #include <limits>
 #include <optional>
 
 namespace mrpt_polyloc {
-
-struct ScanViewParams {
-  std::size_t samples = 180;  ///< k, see CirclePlan
-  double range = 20.0;        ///< what is seen beyond is cut off [m]
-  /// Directions without a hit are bridged where a gap is narrower than this: from hit to hit, as
-  /// noise and glass leave them [rad], 10 degrees.
-  double bridged_gap = 0.17453292519943295;
-
-  /// \throws InvalidParamsError naming the bad field.
-  void check() const;
-};
 
 /// A scan as the polar coordinate metric sees it.
 struct ScanView {

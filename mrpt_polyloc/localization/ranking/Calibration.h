@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/ranking/MatchFeatures.h>
 
 #include <array>
@@ -9,7 +10,7 @@ namespace mrpt_polyloc {
 /// The constants that turn costs into probabilities: fitted by polyloc-calibrate on scans whose
 /// poses are known and on scans of other buildings. The defaults are its output on seven data sets
 /// (default_calibration.h says which and how).
-struct Calibration {
+struct POLYLOC_EXPORT Calibration {
   Calibration();  ///< the built-in constants
 
   /// The logistic score of "this scan was taken in this map": intercept and one weight for each of

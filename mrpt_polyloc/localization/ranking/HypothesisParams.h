@@ -1,11 +1,12 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/ranking/Calibration.h>
 #include <mrpt_polyloc/localization/scan/BeamEvidenceParams.h>
 
 namespace mrpt_polyloc {
 
-struct HypothesisParams {
+struct POLYLOC_EXPORT HypothesisParams {
   double merge_distance = 0.2;               ///< poses nearer than this are one hypothesis [m] ...
   double merge_angle = 0.06981317007977318;  ///< ... if their headings are, too [rad], 4 degrees
   /// A difference of the mean evidence counts in units of its standard error, or of this if that is

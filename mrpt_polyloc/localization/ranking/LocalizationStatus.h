@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 namespace mrpt_polyloc {
 
 /// What the answer means.
@@ -13,6 +15,6 @@ enum class LocalizationStatus {
 };
 
 /// "unique", "ambiguous", "no_match" or "too_few_beams".
-const char* toString(LocalizationStatus status);
+POLYLOC_EXPORT const char* toString(LocalizationStatus status);
 
 }  // namespace mrpt_polyloc

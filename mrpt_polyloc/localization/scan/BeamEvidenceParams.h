@@ -1,11 +1,12 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/scan/RobustCostParams.h>
 
 namespace mrpt_polyloc {
 
 /// See beamEvidence() and BeamEvidence.
-struct BeamEvidenceParams {
+struct POLYLOC_EXPORT BeamEvidenceParams {
   /// As the cost that candidates are compared by, but for beams that end before the map's wall: up
   /// to half a metre.
   RobustCostParams cost{0.5, RobustCostParams{}.tau_long, RobustCostParams{}.tau_open,

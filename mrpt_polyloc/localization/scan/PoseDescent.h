@@ -11,7 +11,7 @@
 
 namespace mrpt_polyloc {
 
-/// Refinement that keeps to what is allowed and never ends dearer than it began.
+/// Refinement that keeps to what is allowed and never ends at a higher cost.
 class PoseDescent {
  public:
   using Cost = std::function<double(const mrpt::math::TPose2D& pose_map_beams)>;

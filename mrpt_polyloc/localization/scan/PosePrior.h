@@ -1,11 +1,13 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <optional>
 
 namespace mrpt_polyloc {
 
 /// What is known of the robot's pose before the search; empty means nothing.
-struct PosePrior {
+struct POLYLOC_EXPORT PosePrior {
   struct Compass {
     double heading;    ///< of the robot in the map [rad]
     double tolerance;  ///< greatest error of it [rad], in [0, pi]

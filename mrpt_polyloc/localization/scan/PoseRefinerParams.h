@@ -1,8 +1,10 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 namespace mrpt_polyloc {
 
-struct PoseRefinerParams {
+struct POLYLOC_EXPORT PoseRefinerParams {
   int max_iterations = 12;
   double step_tolerance = 1e-4;  ///< ends when a step is shorter than this [m] ...
   double turn_tolerance = 1e-4;  ///< ... and turns by less than this [rad]

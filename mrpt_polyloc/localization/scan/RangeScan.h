@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
@@ -24,7 +26,7 @@ struct Beam {
 /// One planar scan: beams that start at the sensor, whose place on the robot is known.
 ///
 /// Any field of view, any spacing, any order. Immutable.
-class RangeScan {
+class POLYLOC_EXPORT RangeScan {
  public:
   /// \param beams in the robot frame, see Beam
   /// \param sensor position of the beams' common origin in the robot frame [m]

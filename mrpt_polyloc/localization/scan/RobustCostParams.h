@@ -1,12 +1,14 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 namespace mrpt_polyloc {
 
 /// The truncations of RobustCost, all in metres.
-struct RobustCostParams {
+struct POLYLOC_EXPORT RobustCostParams {
   /// Cap where a beam ends before the map's wall: an obstacle that is not in the map.
   double tau_short = 0.4;
-  /// Cap where a beam passes the map's wall: contradicts the map, so dearer than tau_short.
+  /// Cap where a beam passes the map's wall: contradicts the map, so above tau_short.
   double tau_long = 0.6;
   /// Cap where a beam went on past an open edge, into what the map does not know, and ended there
   /// before the first wall beyond. (Beyond that wall tau_long holds: the wall is known.)

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <cstddef>
 
 namespace mrpt_polyloc {
 
-struct CertifiedSearchParams {
+struct POLYLOC_EXPORT CertifiedSearchParams {
   /// Poses whose search cost is within this share of the least one found, plus `margin`, are kept:
   /// the cost is noisy, and the right pose does not always have the least.
   double margin_share = 0.1;

@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/geometry/convex_pieces.h>
 #include <mrpt_polyloc/localization/search/QuantizedRange.h>
@@ -58,20 +59,6 @@ void repeat(T* array) {
   std::copy_n(array, kStride - kBandBins, array + kBandBins);
 }
 
-BoundingBox boxOf(const TPoint2D* vertices, std::size_t count) {
-  BoundingBox box{vertices[0], vertices[0]};
-  for (std::size_t i = 1; i < count; ++i) {
-    box.min = {std::min(box.min.x, vertices[i].x), std::min(box.min.y, vertices[i].y)};
-    box.max = {std::max(box.max.x, vertices[i].x), std::max(box.max.y, vertices[i].y)};
-  }
-  return box;
-}
-
-BoundingBox unionOf(const BoundingBox& a, const BoundingBox& b) {
-  return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y)},
-          {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y)}};
-}
-
 }  // namespace
 
 void SearchTreeParams::check() const {
@@ -85,8 +72,8 @@ SearchTree::SearchTree(const Triangulation& triangulation, const RangePredictor&
   data_.leaf_size = params.leaf_size;
   const BoundingBox& box = triangulation.box();
   constexpr double kMostSquares = 1 << 30;  // on a side: they are numbered by 32 bits
-  if (std::max(box.max.x - box.min.x, box.max.y - box.min.y) > kMostSquares * params.leaf_size) {
-    throw InvalidParamsError("leaf_size: " + std::to_string(params.leaf_size) +
+  if (std::max(box.width(), box.height()) > kMostSquares * params.leaf_size) {
+    throw InvalidParamsError("leaf_size: " + formatted("%f", params.leaf_size) +
                              " gives too many leaves for a map of this size");
   }
   layOut(predictor.index(), takeLeaves(triangulation, params.threads));
@@ -138,7 +125,9 @@ SearchTree::Squares SearchTree::takeLeaves(const Triangulation& triangulation, i
     data_.first_vertex.push_back(static_cast<std::uint32_t>(data_.vertices.size()));
     const auto first = found.vertices.begin() + leaf.first;
     data_.vertices.insert(data_.vertices.end(), first, first + leaf.count);
-    data_.levels[0].boxes.push_back(boxOf(&data_.vertices[data_.first_vertex.back()], leaf.count));
+    data_.levels[0].boxes.push_back(BoundingBox::empty());
+    std::for_each(first, first + leaf.count,
+                  [this](const TPoint2D& p) { data_.levels[0].boxes.back().include(p); });
   }
   data_.first_vertex.push_back(static_cast<std::uint32_t>(data_.vertices.size()));
   return squares;
@@ -168,7 +157,7 @@ void SearchTree::layOut(const VisibleEdgeIndex& index, Squares squares) {
       Node& node = here.nodes.back();
       ++node.child_count;
       node.has_open |= below.nodes[i].has_open;
-      here.boxes.back() = unionOf(here.boxes.back(), below.boxes[i]);
+      here.boxes.back().include(below.boxes[i]);
     }
     places = std::move(blocks);
   }

@@ -27,7 +27,7 @@ class TreeDescent {
 
   static constexpr std::size_t kBuckets = 33;  ///< bits of a bound
 
-  /// Memory that is kept from one descent to the next: growing it anew takes a tenth of the time.
+  /// Memory that is kept from one descent to the next: growing it again takes a tenth of the time.
   struct Workspace {
     /// Above the limit, by level and by the bits of the bound: as the limit rises, whole vectors
     /// come within it.

@@ -1,6 +1,7 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/cpu_dispatch.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/polar/exact/ExactPolarMetric.h>
 
@@ -289,7 +290,7 @@ SquaredDistance squaredDistance(const PolarFunction& f_function, const PolarFunc
 
 double distance(const PolarFunction& f, const PolarFunction& g, double rotation) {
   if (!std::isfinite(rotation))
-    throw InvalidParamsError("rotation = " + std::to_string(rotation) + " must be finite");
+    throw InvalidParamsError("rotation = " + formatted("%f", rotation) + " must be finite");
   const SquaredDistance squared = squaredDistance(f, g, rotation);
   if (!squared.any) throw InvalidParamsError("the views have no direction in common");
   return std::sqrt(squared.value);

@@ -115,40 +115,5 @@ TEST_F(Assess, FeaturesOfThePerfectAnswer) {
   EXPECT_NEAR(with_twin.lead, 0.0, 1e-3);
 }
 
-TEST(MatchFeaturesOf, AHalfHiddenScanByHand) {
-  // In the middle of a square of 4 m: four beams along the axes, ranges 2, 1, 2.15 and a no-return.
-  const PolygonMap map = squareMap(4.0);
-  const RangePredictor predictor(Triangulation(map), RangePredictor::kSquareSize, 1);
-  const RangeScan scan({{0.0, 2.0, BeamKind::hit},
-                        {kPi / 2, 1.0, BeamKind::hit},
-                        {kPi, 2.15, BeamKind::hit},
-                        {-kPi / 2, 5.0, BeamKind::no_return}});
-  const ScanCost cost(predictor, scan, {});
-  const BeamSectors sectors(cost.beams());
-  ScoredPose first{{{2, 2, 0}, {}, 3}, 0.08}, second{{{2, 2, 1}, {}, 3}, 0.13};
-  first.refined.information.setZero();
-  second.refined.information.setZero();
-  const MatchFeatures features = matchFeatures({first, second}, first, cost, sectors);
-  EXPECT_NEAR(features.explained, 2.0 / 3.0, 1e-12);
-  EXPECT_NEAR(features.lead, std::log(0.15 / 0.10), 1e-9);
-  EXPECT_NEAR(features.seen, (2 + 1 + 2 + 2) / 8.0, 1e-6);
-  EXPECT_NEAR(features.heading, std::log(0.1745), 1e-9);  // nothing known but the locality
-  // Without a second, one of 0.2 m stands for it: alone is no proof.
-  EXPECT_NEAR(matchFeatures({first}, first, cost, sectors).lead, std::log(0.22 / 0.10), 1e-9);
-  first.cost = 0.3;
-  EXPECT_EQ(matchFeatures({first}, first, cost, sectors).lead, 0.0);
-}
-
-TEST(CalibrationDefaults, SignsMakeSense) {
-  const Calibration calibration;
-  calibration.check();
-  EXPECT_GT(calibration.match_weights[0], 0.0);  // explained
-  EXPECT_GT(calibration.match_weights[1], 0.0);  // lead
-  EXPECT_LT(calibration.match_weights[2], 0.0);  // heading
-  EXPECT_GT(calibration.match_weights[3], 0.0);  // seen
-  EXPECT_GT(calibration.matchProbability({1.0, 1.0, std::log(0.01), 1.0}), 0.99);
-  EXPECT_LT(calibration.matchProbability({0.3, 0.0, std::log(0.1), 0.8}), 0.01);
-}
-
 }  // namespace
 }  // namespace mrpt_polyloc::test

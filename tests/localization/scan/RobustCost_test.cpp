@@ -78,7 +78,7 @@ TEST(RobustCost, GrowsWithTheErrorOnEitherSideOfTheWall) {
     }
     EXPECT_GE(here, 0.0F);
     EXPECT_LE(here, 0.6F);
-    for (const float open : {1.0F, 2.5F, 3.99F}) {  // an open edge never makes a beam dearer
+    for (const float open : {1.0F, 2.5F, 3.99F}) {  // an open edge never makes a beam cost more
       EXPECT_LE(cost.hit(z, kWall, open), here + kEps) << z << " " << open;
     }
   }

@@ -1,3 +1,4 @@
+#include "tests/support/feature_distance.h"
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/polar/FourierBound.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
@@ -141,7 +142,8 @@ TEST(ExactPolarMetricTest, LowerBoundsStayBelow) {
     const double g_mean = g.fourierCoefficients(0)[0].real();
     EXPECT_LE(std::sqrt(kTwoPi) * std::abs(f_mean - g_mean), d + 1e-9);
     for (const std::size_t order : {0U, 4U, 20U})
-      EXPECT_LE(featureDistance(fourierFeature(f, order), fourierFeature(g, order)), d + 1e-9);
+      EXPECT_LE(test::featureDistance(fourierFeature(f, order), fourierFeature(g, order)),
+                d + 1e-9);
   }
 }
 

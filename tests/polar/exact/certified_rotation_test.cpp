@@ -1,7 +1,9 @@
+#include "tests/support/certified_rotation.h"
+
+#include "tests/support/feature_distance.h"
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/polar/FourierBound.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
-#include <mrpt_polyloc/polar/exact/ExactPolarMetric.h>
 
 #include <gtest/gtest.h>
 
@@ -130,7 +132,7 @@ TEST(CertifiedRotationTest, AgreesWithTheSampledMetric) {
     EXPECT_LE(sampled.distance * sampled.distance, nearest * nearest + error);
     EXPECT_GE(sampled.distance * sampled.distance + error, exact.lower_bound * exact.lower_bound);
     for (const std::size_t order : {2U, 16U})
-      EXPECT_LE(featureDistance(fourierFeature(f, order), fourierFeature(g, order)),
+      EXPECT_LE(test::featureDistance(fourierFeature(f, order), fourierFeature(g, order)),
                 exact.distance + 1e-9);
   }
 }

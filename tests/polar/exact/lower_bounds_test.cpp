@@ -1,7 +1,9 @@
+#include "tests/support/lower_bounds.h"
+
+#include "tests/support/certified_rotation.h"
+#include "tests/support/feature_distance.h"
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/polar/FourierBound.h>
-#include <mrpt_polyloc/polar/exact/ExactPolarMetric.h>
-#include <mrpt_polyloc/polar/exact/lower_bounds.h>
 
 #include <gtest/gtest.h>
 
@@ -37,10 +39,11 @@ TEST(LowerBoundsTest, NeverExceedTheExactMetricOverRotations) {
       EXPECT_LE(lowPassBound(f, g, order), truth + 1e-9) << round << " " << order;
     }
     low_pass += lowPassBound(f, g, 40) / truth / kRounds;
-    fourier += featureDistance(fourierFeature(f, 40), fourierFeature(g, 40)) / truth / kRounds;
+    fourier +=
+        test::featureDistance(fourierFeature(f, 40), fourierFeature(g, 40)) / truth / kRounds;
     norm += normBound(f, g) / truth / kRounds;
   }
-  EXPECT_GT(low_pass, 0.85);  // they bound, and each that is dearer is closer
+  EXPECT_GT(low_pass, 0.85);  // they bound, and each that takes longer is closer
   EXPECT_GT(low_pass, fourier);
   EXPECT_GT(fourier, norm);
 }

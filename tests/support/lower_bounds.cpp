@@ -1,6 +1,7 @@
+#include "lower_bounds.h"
+
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
-#include <mrpt_polyloc/polar/exact/lower_bounds.h>
 
 #include <algorithm>
 #include <cmath>

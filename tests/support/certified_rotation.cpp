@@ -1,7 +1,8 @@
 // The minimum of the exact polar coordinate metric over rotations, by branch and bound.
 
+#include "certified_rotation.h"
+
 #include <mrpt_polyloc/base/params_check.h>
-#include <mrpt_polyloc/polar/exact/ExactPolarMetric.h>
 
 #include <algorithm>
 #include <cmath>

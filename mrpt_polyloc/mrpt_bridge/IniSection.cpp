@@ -1,19 +1,23 @@
-#include "ini_section.h"
+#include <mrpt_polyloc/base/number_text.h>
+#include <mrpt_polyloc/mrpt_bridge/IniSection.h>
 
-#include "../common/parsing.h"
-#include <mrpt_polyloc/base/errors.h>
-#include <mrpt_polyloc/mrpt_bridge/ini_keys.h>
-
+#include <algorithm>
 #include <cctype>
-#include <sstream>
+#include <cmath>
 #include <utility>
 
-namespace mrpt_polyloc::replay {
+namespace mrpt_polyloc {
 
 IniSection::IniSection(const mrpt::config::CConfigFileBase& ini, std::string name,
                        const std::vector<std::string>& known)
     : ini_(&ini), name_(std::move(name)) {
-  requireKnownKeys(ini, name_, known);
+  std::vector<std::string> keys;
+  ini.getAllKeys(name_, keys);
+  for (const std::string& key : keys) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      throw InvalidParamsError("[" + name_ + "]: unknown option '" + key + "'");
+    }
+  }
 }
 
 void IniSection::refuse(const std::string& option, const std::string& text,
@@ -26,24 +30,31 @@ std::string IniSection::text(const std::string& option, const std::string& by_de
   return given.empty() ? by_default : given;
 }
 
+std::string IniSection::word(const std::string& option) const {
+  std::string given = text(option, "");
+  given.erase(std::min(given.find_first_of(";#"), given.size()));
+  given.erase(given.find_last_not_of(" \t") + 1);
+  return given;
+}
+
 double IniSection::number(const std::string& option, double by_default, double least,
                           double most) const {
-  const std::string given = text(option, "");
+  const std::string given = word(option);
   if (given.empty()) return by_default;
-  const auto value = apps::parseNumber(given);
-  if (!value || *value < least || *value > most) {
-    std::ostringstream expected;
-    expected << "a number from " << least << " to " << most;
-    refuse(option, given, expected.str());
+  const auto value = parseNumber(given);
+  if (!value || !(*value >= least && *value <= most)) {  // refuses NaN
+    const bool has_bounds = std::isfinite(least) || std::isfinite(most);
+    refuse(option, given,
+           has_bounds ? formatted("a number from %g to %g", least, most) : "a number");
   }
   return *value;
 }
 
 std::size_t IniSection::count(const std::string& option, std::size_t by_default, std::size_t least,
                               std::size_t most) const {
-  const std::string given = text(option, "");
+  const std::string given = word(option);
   if (given.empty()) return by_default;
-  const auto value = apps::parseCount(given);
+  const auto value = parseCount(given);
   if (!value || *value < least || *value > most) {
     refuse(option, given,
            "one whole number from " + std::to_string(least) + " to " + std::to_string(most));
@@ -52,7 +63,7 @@ std::size_t IniSection::count(const std::string& option, std::size_t by_default,
 }
 
 bool IniSection::flag(const std::string& option, bool by_default) const {
-  std::string given = text(option, "");
+  const std::string given = word(option);
   if (given.empty()) return by_default;
   std::string lower;
   for (const char c : given)
@@ -62,4 +73,4 @@ bool IniSection::flag(const std::string& option, bool by_default) const {
   refuse(option, given, "true or false");
 }
 
-}  // namespace mrpt_polyloc::replay
+}  // namespace mrpt_polyloc

@@ -1,0 +1,44 @@
+#include "memory_budget.h"
+
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
+
+#include <fstream>
+
+namespace mrpt_polyloc::apps {
+
+void addMemoryOption(CLI::App& cli, std::optional<double>& megabytes) {
+  addNumber(
+      cli, "--max-memory", [&megabytes](double given) { megabytes = given; }, {0.0, 1e9, true},
+      "Most memory for the index of a map; one that would take more is refused before it is built "
+      "[default: half of what is free]")
+      ->type_name("MB");
+}
+
+std::optional<double> freeMegabytes() {
+  std::ifstream file("/proc/meminfo");
+  for (std::string key; file >> key;) {
+    double kilobytes = 0.0;
+    if (key == "MemAvailable:" && file >> kilobytes) return kilobytes / 1e3;
+  }
+  return std::nullopt;
+}
+
+void requireMemory(const std::string& path, const PolygonMap& map, const MapIndexParams& params,
+                   const std::optional<double>& allowed) {
+  const MapIndexEstimate estimate = MapIndex::estimate(map, params);
+  const double needed = estimate.bytes / 1e6;
+  const std::optional<double> free = allowed ? std::nullopt : freeMegabytes();
+  if (!allowed && !free) return;
+  const double most = allowed ? *allowed : 0.5 * *free;
+  if (needed <= most) return;
+  throw FormatError(
+      path, "",
+      formatted("the index of %.0f m2 would take about %.0f MB of memory and %.2g s on one core; "
+                "%.0f MB are allowed (%s). Allow more by --max-memory MB; cut the map to where the "
+                "robot can be; or, if it is not in metres, say so by --scale F",
+                map.area(), needed, estimate.cpu_seconds, most,
+                allowed ? "--max-memory" : "half of what is free"));
+}
+
+}  // namespace mrpt_polyloc::apps

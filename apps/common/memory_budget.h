@@ -1,0 +1,24 @@
+#pragma once
+
+#include "Cli.h"
+#include <mrpt_polyloc/geometry/PolygonMap.h>
+#include <mrpt_polyloc/localization/MapIndex.h>
+
+#include <optional>
+#include <string>
+
+namespace mrpt_polyloc::apps {
+
+/// Adds --max-memory: what the index of a map may take [MB].
+void addMemoryOption(CLI::App& cli, std::optional<double>& megabytes);
+
+/// Refuses a map of which the index would take more memory than is allowed, before anything is
+/// built. \param allowed [MB]; not given: half of what is free now, or anything where the system
+/// does not tell \throws FormatError naming the map, with the estimate and the ways out
+void requireMemory(const std::string& path, const PolygonMap& map, const MapIndexParams& params,
+                   const std::optional<double>& allowed);
+
+/// What new programs can take without swapping [MB], as the system says; none if it does not.
+std::optional<double> freeMegabytes();
+
+}  // namespace mrpt_polyloc::apps

@@ -1,0 +1,145 @@
+#include "search_fixture.h"
+#include <mrpt_polyloc/localization/search/CertifiedSearch.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <random>
+#include <set>
+#include <vector>
+
+namespace mrpt_polyloc::test {
+namespace {
+
+using mrpt::math::TPose2D;
+
+/// A search of a map for a scan, and all that it needs.
+struct Search {
+  Search(const SearchedMap& searched, const RangeScan& range_scan)
+      : built(searched),
+        scan(range_scan),
+        query(scan, GlobalLocalizerParams{}.search_cost),
+        allowed(built.triangulation, prior, scan.sensor()),
+        scorer(built.predictor, query, scan.sensor(), allowed, GlobalLocalizerParams{}.search_cost,
+               {}) {}
+
+  CertifiedSearchResult operator()(const CertifiedSearchParams& params = {},
+                                   const Budget& budget = Budget()) const {
+    return searchTree(built.tree, query, prior, scan.sensor(), scorer, budget, params);
+  }
+
+  const SearchedMap& built;
+  RangeScan scan;
+  PosePrior prior;
+  BandQuery query;
+  AllowedPoses allowed;
+  PoseScorer scorer;
+};
+
+RangeScan noisyScan(const PolygonMap& map, const TPose2D& truth, std::uint32_t seed) {
+  ScanOptions options;
+  options.sigma = 0.02;
+  options.short_share = 0.1;
+  options.seed = seed;
+  return simulatedScan(map, truth, options);
+}
+
+TPose2D somewhere(const PolygonMap& map, std::mt19937& random) {
+  const TPoint2D p = randomFreePoints(map, 1, random).front();
+  return {p.x, p.y, std::uniform_real_distribution<>(-kPi, kPi)(random)};
+}
+
+TEST(CertifiedSearch, RegionsHoldEveryPoseUpToTheCertifiedCost) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::size_t below = 0;
+  for (std::uint32_t seed = 0; seed < 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const SearchedMap built(smallBuilding(seed));
+    const TPose2D truth = somewhere(built.map, random);
+    const Search search(built, noisyScan(built.map, truth, seed));
+    CertifiedSearchParams params;
+    params.margin = 0.1;  // more is proven than usual, so that more can be wrong
+    const CertifiedSearchResult found = search(params);
+    ASSERT_TRUE(found.certified_cost && found.is_complete);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> regions;
+    for (const RemainingLeaf& r : found.regions) regions.emplace(r.leaf, r.heading);
+    EXPECT_EQ(regions.size(), found.regions.size());
+    const BruteForceCost cost(built.map, search.scan);
+    const std::size_t home = leafAt(built.tree, {truth.x, truth.y});
+    for (int i = 0; i < 3000; ++i) {
+      // Half of them around the truth, where the cheap ones are.
+      const bool near = i % 2 == 0;
+      const std::size_t leaf =
+          near ? (home + built.tree.nodes(0).size() + random() % 9 - 4) % built.tree.nodes(0).size()
+               : random() % built.tree.nodes(0).size();
+      const double bin = (truth.phi + search.query.phase) / kBandBinWidth;
+      const double share = near ? (bin + 4.0 * (unit(random) - 0.5)) / kBandBins : unit(random);
+      const HeldPose held =
+          poseIn(built.tree, search.query, leaf, share - std::floor(share), random);
+      if (cost(held.pose_map_beams) > *found.certified_cost - 1e-3) continue;
+      ++below;
+      EXPECT_EQ(regions.count({static_cast<std::uint32_t>(held.leaf), held.heading}), 1U);
+    }
+  }
+  EXPECT_GT(below, 50U);
+}
+
+TEST(CertifiedSearch, ProvesTheMarginAboveTheLeastCostAndOffersTheBestFirst) {
+  std::mt19937 random(2);
+  for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    const SearchedMap built(smallBuilding(seed));
+    const TPose2D truth = somewhere(built.map, random);
+    const Search search(built, noisyScan(built.map, truth, seed));
+    const CertifiedSearchParams params;
+    const CertifiedSearchResult found = search();
+    ASSERT_FALSE(found.candidates.empty());
+    EXPECT_LE(found.candidates.size(), params.max_candidates);
+    double least = 1e9;
+    for (std::size_t i = 0; i < found.candidates.size(); ++i) {
+      const PoseCandidate& candidate = found.candidates[i];
+      if (i > 0) {
+        EXPECT_GE(candidate.cost, found.candidates[i - 1].cost);
+      }
+      EXPECT_TRUE(
+          built.triangulation.isFree({candidate.pose_map_beams.x, candidate.pose_map_beams.y}));
+      if (i < 5) least = std::min(least, search.scorer.costBelow(candidate.pose_map_beams));
+    }
+    ASSERT_TRUE(found.certified_cost);
+    EXPECT_GE(*found.certified_cost, least * (1.0 + params.margin_share) + params.margin - 1e-3);
+    // From one of them refinement comes to the truth, or to what explains the scan better.
+    const double at_truth = search.scorer.costBelow(truth);
+    EXPECT_LE(least, at_truth + 1e-3);
+  }
+}
+
+TEST(CertifiedSearch, WhatABudgetEndsIsNotCalledComplete) {
+  std::mt19937 random(3);
+  const SearchedMap built(smallBuilding(5));
+  const TPose2D truth = somewhere(built.map, random);
+  const Search search(built, noisyScan(built.map, truth, 1));
+  const CertifiedSearchResult whole = search();
+  CertifiedSearchParams few;
+  few.max_nodes = whole.evaluated / 20;
+  const CertifiedSearchResult part = search(few);
+  EXPECT_FALSE(part.is_complete);
+  EXPECT_LT(part.evaluated, whole.evaluated);
+  EXPECT_LT(part.certified_cost.value_or(0.0), *whole.certified_cost);
+  const std::atomic<bool> cancel{true};
+  const CertifiedSearchResult none = search({}, Budget(0.0, &cancel));
+  EXPECT_FALSE(none.is_complete);
+  EXPECT_FALSE(none.certified_cost);
+  EXPECT_FALSE(none.candidates.empty());  // a guess, if nothing is proven
+}
+
+TEST(CertifiedSearch, ProvesNothingWithoutBeams) {
+  const SearchedMap built(smallBuilding(6));
+  const CertifiedSearchResult found = Search(built, RangeScan({}))();
+  EXPECT_FALSE(found.certified_cost);
+}
+
+}  // namespace
+}  // namespace mrpt_polyloc::test
