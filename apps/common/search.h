@@ -83,7 +83,7 @@ struct LocalizedScan {
   std::size_t row = 0;  ///< index in the file
   double stamp = 0.0;   ///< [s]
   LocalizationResult result;
-  double ms = 0.0;                ///< wall time of this scan
+  double ms = 0.0;                     ///< wall time of this scan
   std::vector<std::string> maps = {};  ///< of each hypothesis, where several maps are searched
 };
 
