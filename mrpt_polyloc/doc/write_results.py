@@ -64,6 +64,24 @@ def line_of(entry, name):
                 f"{milliseconds(entry['ms_max'])}"])
 
 
+def groups_of(results):
+    """Plans of one entry of a list, NAME-PLAN, put together: shares weighed by scans, and no
+    intervals or times, which do not add up."""
+    groups = {}
+    for entry in results:
+        groups.setdefault((entry["dataset"].split("-")[0], entry["method"]), []).append(entry)
+    text = ""
+    for (name, method), entries in groups.items():
+        scans = sum(entry["scans"] for entry in entries)
+        unique = sum(entry["status"]["unique"] for entry in entries)
+        right = sum(entry["status"]["unique"] * (entry["unique_right"] or 0) for entry in entries)
+        shares = [percent(sum(entry["scans"] * entry[key] for entry in entries) / scans)
+                  for key in ("top1", "top20")]
+        text += row([f"{name} ({len(entries)} plans)", method, str(scans), shares[0], "", shares[1],
+                     "", percent(right / unique if unique else None), ""])
+    return text
+
+
 def section(name, kept):
     """One kept summary as a section of the page."""
     run = kept["run"]
@@ -72,8 +90,10 @@ def section(name, kept):
              f"{run['machine']}.\n{kept['note']}\n\n")
     text += row(["data set", "method", "scans", "top-1 %", "95 %", "top-20 %", "top-1 %, good rows",
                  "unique right %", "ms: half / 90 % / longest"]) + "|---" * 9 + "|\n"
-    for entry in kept["results"] if len(kept["results"]) <= 40 else []:
-        text += line_of(entry, entry["dataset"])
+    if len(kept["results"]) > 40:
+        text += groups_of(kept["results"])
+    else:
+        text += "".join(line_of(entry, entry["dataset"]) for entry in kept["results"])
     for entry in kept["all"]:
         text += line_of(entry, "**all**")
     text += "\n"
