@@ -384,7 +384,7 @@ struct FixedState {
   const char* name;
   const char* state;
   bool dark;
-  bool of_demo;  ///< of MRPT's localization_demo, else of the niches map
+  bool of_demo = false;  ///< of MRPT's localization_demo, else of the niches map
 };
 
 /// The pictures of the documentation are those of these states; they are drawn anew with
