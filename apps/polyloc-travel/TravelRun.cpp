@@ -138,7 +138,7 @@ class Run {
     for (const Hypothesis& hypothesis : all.hypotheses) {
       if (isNear(hypothesis.pose_map_robot, first)) near += hypothesis.weight;
     }
-    if (near >= kLikely) return first;
+    if (near >= kLikely && all.status == LocalizationStatus::unique) return first;
     living_.clear();
     for (const Hypothesis& hypothesis : all.hypotheses) {
       living_.push_back({next_id_++, hypothesis.pose_map_robot, hypothesis.covariance,
