@@ -24,6 +24,7 @@ install(
 # compiles each of these by itself against the installed ones alone.
 set(POLYLOC_PUBLIC_HEADERS
     base/BuildProgress.h
+    base/TiledGrid.h
     base/angles.h
     base/errors.h
     base/export.h
@@ -32,12 +33,19 @@ set(POLYLOC_PUBLIC_HEADERS
     geometry/OccupancyBitmap.h
     geometry/PolygonMap.h
     geometry/Triangulation.h
+    geometry/WallDistances.h
     geometry/bitmap_cleaning.h
     geometry/tracing.h
     geometry/validation.h
+    visibility/BeamPattern.h
+    visibility/BoundaryChains.h
+    visibility/FloatBlocks.h
+    visibility/RangePredictor.h
+    visibility/SquareExpander.h
     visibility/ViewExpander.h
     visibility/VisibilityCells.h
     visibility/VisibilitySkeleton.h
+    visibility/VisibleEdgeIndex.h
     visibility/critical_segments.h
     visibility/segment_arrangement.h
     visibility/visibility_polygon.h
@@ -46,6 +54,7 @@ set(POLYLOC_PUBLIC_HEADERS
     localization/GlobalLocalizerParams.h
     localization/LocalizationResult.h
     localization/MapIndex.h
+    localization/MultiMapLocalizer.h
     localization/SearchOptions.h
     localization/exact/ExactAnswers.h
     localization/exact/ExactLocalizer.h
@@ -63,15 +72,28 @@ set(POLYLOC_PUBLIC_HEADERS
     localization/ranking/HypothesisParams.h
     localization/ranking/LocalizationStatus.h
     localization/ranking/MatchFeatures.h
+    localization/ranking/MomentWeights.h
     localization/scan/BeamEvidenceParams.h
+    localization/scan/Motion.h
     localization/scan/PosePrior.h
     localization/scan/PoseRefinerParams.h
     localization/scan/RangeScan.h
     localization/scan/RobustCostParams.h
+    localization/scan/ScanSet.h
     localization/search/Certificate.h
     localization/search/CertifiedSearchParams.h
     localization/search/SearchMetric.h
+    travel/ClearanceField.h
+    travel/ExpectedReadings.h
+    travel/HypothesisTracker.h
+    travel/SafeSet.h
+    travel/Sight.h
+    travel/TravelPlan.h
+    travel/TravelPlanner.h
+    travel/TravelPlannerParams.h
+    io/ScanLog.h
     io/bitmap_files.h
+    io/drive_log.h
     io/map_files.h
     io/mrpt_compat.h
     io/observation.h

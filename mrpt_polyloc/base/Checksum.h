@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -8,7 +10,7 @@ namespace mrpt_polyloc {
 
 /// 64-bit FNV-1a (Fowler, Noll, Vo), byte by byte: tells contents apart, no protection against
 /// those who mean harm.
-class Fnv {
+class POLYLOC_EXPORT Fnv {
  public:
   void add(const void* data, std::size_t size) {
     const auto* bytes = static_cast<const unsigned char*>(data);
@@ -26,7 +28,7 @@ class Fnv {
 
 /// The same over words of eight bytes, the last one padded with zeros: for hundreds of megabytes.
 /// In what pieces the data comes does not matter.
-class Checksum {
+class POLYLOC_EXPORT Checksum {
  public:
   void add(const void* data, std::size_t size) {
     const auto* bytes = static_cast<const unsigned char*>(data);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/export.h>
 
 #include <cmath>
 #include <cstdint>
@@ -10,7 +11,7 @@ namespace mrpt_polyloc {
 
 /// Random numbers from mt19937_64, which the standard fixes, through transformations of our own,
 /// which it leaves to the library: the same seed gives the same numbers everywhere.
-class Random {
+class POLYLOC_EXPORT Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 

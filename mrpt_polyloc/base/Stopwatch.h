@@ -1,11 +1,13 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <chrono>
 
 namespace mrpt_polyloc {
 
 /// Wall time since it was made.
-class Stopwatch {
+class POLYLOC_EXPORT Stopwatch {
  public:
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();

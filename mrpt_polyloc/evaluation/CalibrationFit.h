@@ -39,7 +39,7 @@ POLYLOC_EXPORT Calibration fitCalibration(const std::vector<CalibrationSample>& 
                                           const CalibrationFitParams& params = {});
 
 /// What calibrations do on samples.
-struct CalibrationOutcome {
+struct POLYLOC_EXPORT CalibrationOutcome {
   std::vector<RocPoint> roc;            ///< by match probability: good own against foreign scans
   std::size_t good = 0, good_lost = 0;  ///< own scans that agree with the map; refused
   std::size_t cluttered = 0, cluttered_lost = 0;  ///< the same with clutter

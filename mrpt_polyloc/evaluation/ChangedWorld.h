@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/evaluation/WallSegments.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
@@ -13,7 +14,7 @@ namespace mrpt_polyloc {
 
 /// In what the world differs from its map: what happens to buildings after they were mapped, and
 /// what mapping itself gets wrong.
-struct WorldChanges {
+struct POLYLOC_EXPORT WorldChanges {
   /// Boxes that the map does not have, sides of 0.4 to 1.2 m, anywhere in free space and turned
   /// anyhow: moved furniture. One that would stand nearer to the robot than its clearance is left
   /// out of that scan: someone pushed it away.
@@ -38,7 +39,7 @@ struct WorldChanges {
 
 /// The walls of a world that a map tells of, changed; searched one by one in double, see
 /// WallSegments. The same map, changes and seed give the same world.
-class ChangedWorld {
+class POLYLOC_EXPORT ChangedWorld {
  public:
   /// \throws InvalidParamsError; InvalidMapError if boxes are asked for and there is no free space
   ChangedWorld(const PolygonMap& map, const WorldChanges& changes, std::uint64_t seed);

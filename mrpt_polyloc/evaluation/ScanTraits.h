@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
@@ -12,7 +13,7 @@
 namespace mrpt_polyloc {
 
 /// What makes a scan hard, whatever method it is given to.
-struct ScanTraits {
+struct POLYLOC_EXPORT ScanTraits {
   double fov = 0.0;      ///< from the first to the last beam that says something [rad]
   std::size_t hits = 0;  ///< beams that hit something
   /// Share of the hits that end before what the map has there, seen from the true pose, by more
@@ -25,7 +26,7 @@ struct ScanTraits {
 };
 
 /// Compares scans with a map from their true poses. Const and thread-safe.
-class ScanJudge {
+class POLYLOC_EXPORT ScanJudge {
  public:
   /// Keeps a reference to the map. \param threads for what is prepared; 0: all cores
   explicit ScanJudge(const PolygonMap& map, int threads = 0);

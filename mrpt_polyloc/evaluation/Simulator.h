@@ -37,17 +37,16 @@ struct POLYLOC_EXPORT SimulatorParams {
 };
 
 /// One simulated scan and where it was taken.
-struct SimulatedScan {
+struct POLYLOC_EXPORT SimulatedScan {
   StampedPose truth;
   mrpt::obs::CObservation2DRangeScan observation;
 };
 
 /// One scan from a pose, which may lie anywhere, of the walls that the room has now. The sensor
 /// sits at the robot's origin. \throws InvalidParamsError
-mrpt::obs::CObservation2DRangeScan simulateScan(const WallSegments& walls,
-                                                const SimulatorParams& params,
-                                                const mrpt::math::TPose2D& pose_map_robot,
-                                                std::uint64_t seed);
+POLYLOC_EXPORT mrpt::obs::CObservation2DRangeScan simulateScan(
+    const WallSegments& walls, const SimulatorParams& params,
+    const mrpt::math::TPose2D& pose_map_robot, std::uint64_t seed);
 
 /// `count` scans at random poses: uniform over the free space (by area) that keeps the clearance,
 /// headings uniform. The sensor sits at the robot's origin; stamps are synthetic, 1e9 s + row.
@@ -61,9 +60,8 @@ POLYLOC_EXPORT std::vector<SimulatedScan> simulateScans(const PolygonMap& map,
                                                         std::size_t count, std::uint64_t seed);
 
 /// What the laser sees from a pose of it in the map, the clearance being the robot's.
-mrpt::obs::CObservation2DRangeScan simulateScan(const ChangedWorld& world,
-                                                const SimulatorParams& params,
-                                                const mrpt::math::TPose2D& pose_map_laser,
-                                                double stamp, Random& noise);
+POLYLOC_EXPORT mrpt::obs::CObservation2DRangeScan simulateScan(
+    const ChangedWorld& world, const SimulatorParams& params,
+    const mrpt::math::TPose2D& pose_map_laser, double stamp, Random& noise);
 
 }  // namespace mrpt_polyloc

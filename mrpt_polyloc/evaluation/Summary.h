@@ -13,13 +13,13 @@
 namespace mrpt_polyloc {
 
 /// How far from the truth still counts as right.
-struct Tolerance {
+struct POLYLOC_EXPORT Tolerance {
   double distance = 0.3;               ///< [m]
   double angle = 0.08726646259971647;  ///< [rad], 5 degrees
 };
 
 /// One localized scan against its truth.
-struct ScanScore {
+struct POLYLOC_EXPORT ScanScore {
   LocalizationStatus status = LocalizationStatus::too_few_beams;
   /// Rank (from 1) of the first right hypothesis; 0 if none is right or none was given.
   std::size_t right_rank = 0;
@@ -44,7 +44,7 @@ POLYLOC_EXPORT ScanScore scoreScan(const LocalizationResult& result,
 POLYLOC_EXPORT double percentile(std::vector<double> values, double share);
 
 /// Success rates and times over many scans, as summary.json holds them. All zero for no scans.
-struct Summary {
+struct POLYLOC_EXPORT Summary {
   std::size_t scans = 0;
   double top1 = 0, top5 = 0, top20 = 0;  ///< fractions with a right pose among the first k
   double in_list = 0;                    ///< fraction with a right pose anywhere

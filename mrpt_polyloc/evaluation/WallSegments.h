@@ -8,16 +8,16 @@
 namespace mrpt_polyloc {
 
 /// A straight wall [m].
-struct WallSegment {
+struct POLYLOC_EXPORT WallSegment {
   TPoint2D a, b;
 };
 
 /// Range [m] from a point along a unit vector to a wall, its end points included; infinity if it is
 /// not met.
-double rangeTo(const WallSegment& wall, const TPoint2D& origin, const TPoint2D& ray);
+POLYLOC_EXPORT double rangeTo(const WallSegment& wall, const TPoint2D& origin, const TPoint2D& ray);
 
 /// How a room differs from its map.
-struct RoomChanges {
+struct POLYLOC_EXPORT RoomChanges {
   struct Disc {
     TPoint2D center;  ///< [m]
     double radius;    ///< [m]

@@ -17,7 +17,7 @@ namespace mrpt_polyloc {
 enum class ScanOrigin { own, cluttered, foreign };
 
 /// What a calibration needs of one localized scan.
-struct CalibrationSample {
+struct POLYLOC_EXPORT CalibrationSample {
   std::size_t map = 0;  ///< which map it was localized in
   std::size_t set = 0;  ///< which set it comes from; its map's unless foreign
   ScanOrigin origin = ScanOrigin::own;

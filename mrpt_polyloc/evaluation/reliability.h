@@ -8,13 +8,13 @@
 namespace mrpt_polyloc {
 
 /// A stated probability and whether it came true.
-struct Forecast {
+struct POLYLOC_EXPORT Forecast {
   double probability = 0.0;
   bool came_true = false;
 };
 
 /// The forecasts of one interval of probabilities.
-struct ReliabilityBin {
+struct POLYLOC_EXPORT ReliabilityBin {
   double from = 0.0, to = 0.0;  ///< [from, to); the last bin holds its end, too
   std::size_t count = 0;
   double stated = 0.0;      ///< mean stated probability; 0 if there is none

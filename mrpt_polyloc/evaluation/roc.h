@@ -7,7 +7,7 @@
 namespace mrpt_polyloc {
 
 /// One threshold of a detector that accepts scores at or above it.
-struct RocPoint {
+struct POLYLOC_EXPORT RocPoint {
   double threshold = 0.0;
   double lost = 0.0;     ///< share of the true that is refused: scores below the threshold
   double refused = 0.0;  ///< share of the foreign that is refused

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/scan/Motion.h>
 
 #include <mrpt/math/TPose2D.h>
@@ -13,7 +14,8 @@ namespace mrpt_polyloc {
 /// with normal errors of its own, of the standard deviations that the noise gives it. The first
 /// movement is none. The same seed gives the same errors.
 /// \param noise of the wheels, which is also what the movements say of themselves
-std::vector<Motion> simulatedOdometry(const std::vector<mrpt::math::TPose2D>& poses_map_robot,
-                                      const MotionNoise& noise, std::uint64_t seed);
+POLYLOC_EXPORT std::vector<Motion> simulatedOdometry(
+    const std::vector<mrpt::math::TPose2D>& poses_map_robot, const MotionNoise& noise,
+    std::uint64_t seed);
 
 }  // namespace mrpt_polyloc

@@ -19,15 +19,15 @@ namespace mrpt_polyloc {
 POLYLOC_EXPORT nlohmann::ordered_json mapStatistics(const PolygonMap& map);
 
 /// What the search index of a map took.
-struct IndexFigures {
+struct POLYLOC_EXPORT IndexFigures {
   double build_s = 0.0;  ///< wall time, tracing of the map and all [s]
   double mb = 0.0;       ///< memory [10^6 bytes]
 };
 
 /// What summary.json says of one set, with the map's figures as mapStatistics() gives them.
-nlohmann::ordered_json summaryObject(const Summary& all, const Summary* good,
-                                     const IndexFigures& index,
-                                     const nlohmann::ordered_json& map_statistics);
+POLYLOC_EXPORT nlohmann::ordered_json summaryObject(const Summary& all, const Summary* good,
+                                                    const IndexFigures& index,
+                                                    const nlohmann::ordered_json& map_statistics);
 
 /// The text of summary.json, indented, with a final newline.
 ///
@@ -38,7 +38,7 @@ POLYLOC_EXPORT std::string summaryJson(const Summary& all, const Summary* good,
                                        const IndexFigures& index, const PolygonMap& map);
 
 /// One line of scans.csv.
-struct ScanRecord {
+struct POLYLOC_EXPORT ScanRecord {
   std::size_t row = 0;  ///< 0-based index of the scan in its file
   double stamp = 0.0;   ///< [s]
   mrpt::math::TPose2D truth{0, 0, 0};

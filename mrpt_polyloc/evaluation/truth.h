@@ -13,7 +13,7 @@
 namespace mrpt_polyloc {
 
 /// A pose of the robot's origin in the map at a time [s, m, rad].
-struct StampedPose {
+struct POLYLOC_EXPORT StampedPose {
   double stamp = 0.0;
   mrpt::math::TPose2D pose_map_robot;
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <mrpt/math/TPoint2D.h>
 
 #include <algorithm>
@@ -10,7 +12,7 @@ namespace mrpt_polyloc {
 using mrpt::math::TPoint2D;
 
 /// An axis-parallel box, its sides with it [m].
-struct BoundingBox {
+struct POLYLOC_EXPORT BoundingBox {
   TPoint2D min{0, 0};
   TPoint2D max{0, 0};
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/base/Random.h>
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 
 #include <cstddef>
@@ -10,7 +11,7 @@
 namespace mrpt_polyloc {
 
 /// Random points of the free space of a map, uniform by area. O(log n) a point; thread-safe.
-class FreeSpaceSampler {
+class POLYLOC_EXPORT FreeSpaceSampler {
  public:
   /// \throws InvalidMapError if the map has no free space
   explicit FreeSpaceSampler(const PolygonMap& map);

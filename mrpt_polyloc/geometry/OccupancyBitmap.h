@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
@@ -18,7 +20,7 @@ enum class CellState : std::uint8_t { unknown, free, occupied };
 /// `resolution`, in the frame of the bitmap; row 0 is the lowest. `pose_map_bitmap` places the
 /// lower left corner of cell (0, 0) and the direction of the rows in the map. Everything outside
 /// is unknown.
-struct OccupancyBitmap {
+struct POLYLOC_EXPORT OccupancyBitmap {
   int width = 0;            ///< columns
   int height = 0;           ///< rows
   double resolution = 0.0;  ///< side of a cell [m]

@@ -17,7 +17,7 @@ enum class EdgeKind : std::uint8_t { wall, open };
 
 /// A closed chain of vertices [m]. `kinds[i]` belongs to the edge from vertex i to vertex i + 1
 /// (the last one closes the ring), so both have one size. The first vertex is not repeated.
-struct Ring {
+struct POLYLOC_EXPORT Ring {
   std::vector<TPoint2D> vertices;
   std::vector<EdgeKind> kinds;
 
@@ -33,7 +33,7 @@ POLYLOC_EXPORT double signedArea(const std::vector<TPoint2D>& vertices);
 
 /// One connected piece of free space: the outer ring counterclockwise, the holes clockwise, so
 /// that free space lies to the left of every directed edge.
-struct FreePolygon {
+struct POLYLOC_EXPORT FreePolygon {
   Ring outer;
   std::vector<Ring> holes;
 };

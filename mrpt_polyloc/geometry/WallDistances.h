@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/base/TiledGrid.h>
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 
 #include <cstddef>
@@ -11,9 +12,9 @@ namespace mrpt_polyloc {
 /// grid of distances near walls, interpolated. For exact distances see NearestWalls, which takes a
 /// hundred times as long.
 ///
-/// Immutable and thread-safe. Within 0.071 m of the truth (half a cell's diagonal), mostly much nearer. Memory
-/// and time of building follow the walls' length.
-class WallDistances {
+/// Immutable and thread-safe. Within 0.071 m of the truth (half a cell's diagonal), mostly much
+/// nearer. Memory and time of building follow the walls' length.
+class POLYLOC_EXPORT WallDistances {
  public:
   static constexpr double kReach = 0.8;     ///< [m]: beyond, all is far
   static constexpr double kCellSize = 0.1;  ///< [m]; more on maps of more than 400 km2

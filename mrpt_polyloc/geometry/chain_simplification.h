@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/border_chains.h>
 
 namespace mrpt_polyloc {
@@ -18,7 +19,7 @@ namespace mrpt_polyloc {
 /// are simplified within half of the shorter side of their box at most: specks keep their size.
 ///
 /// `width` and `height` are those of the bitmap the chains come from.
-BorderChains simplifyChains(const BorderChains& borders, int width, int height,
-                            double tolerance_cells);
+POLYLOC_EXPORT BorderChains simplifyChains(const BorderChains& borders, int width, int height,
+                                           double tolerance_cells);
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/validation.h>
 
 #include <vector>
@@ -16,7 +17,7 @@ constexpr double kThickestDoorWall = 0.5;
 /// distances together) has none, nor has one that lies in a room. O(n) for each door.
 ///
 /// \param rooms with any orientation of rings \param doors lines along the wall [m]
-std::vector<RawPolygon> doorPassages(const std::vector<RawPolygon>& rooms,
-                                     const std::vector<Polyline>& doors);
+POLYLOC_EXPORT std::vector<RawPolygon> doorPassages(const std::vector<RawPolygon>& rooms,
+                                                    const std::vector<Polyline>& doors);
 
 }  // namespace mrpt_polyloc

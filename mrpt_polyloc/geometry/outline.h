@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
 #include <vector>
@@ -7,7 +8,7 @@
 namespace mrpt_polyloc {
 
 /// A map as it is drawn at some scale: its lines by what they are, with fewer vertices [m].
-struct MapOutline {
+struct POLYLOC_EXPORT MapOutline {
   std::vector<Polyline> free;    ///< rings of the free space, closed; filled by the even-odd rule
   std::vector<Polyline> walls;   ///< chains of wall edges; a ring that is all walls is one closed
   std::vector<Polyline> open;    ///< chains of open edges
@@ -19,6 +20,6 @@ struct MapOutline {
 /// and walls beyond that fit into a square of the tolerance are left out. Lines may cross each
 /// other by the tolerance: to be drawn, not to be searched.
 /// \param tolerance [m]; 0: all vertices \throws InvalidParamsError if it is negative or not finite
-MapOutline outlineOf(const PolygonMap& map, double tolerance);
+POLYLOC_EXPORT MapOutline outlineOf(const PolygonMap& map, double tolerance);
 
 }  // namespace mrpt_polyloc

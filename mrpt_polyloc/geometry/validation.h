@@ -10,37 +10,37 @@
 namespace mrpt_polyloc {
 
 /// One thing wrong with a map, and where [m].
-struct Defect {
+struct POLYLOC_EXPORT Defect {
   std::string what;  ///< e.g. "self-crossing ring", "hole outside its polygon", "repeated vertex"
   TPoint2D where{0, 0};
 };
 
 /// One thing done about a defect, and where.
-struct Repair {
+struct POLYLOC_EXPORT Repair {
   std::string what;
   TPoint2D where{0, 0};
 };
 
 /// Rings as a file holds them, before anything is known of them: any orientation, the first vertex
 /// perhaps repeated at the end, not necessarily simple.
-struct RawPolygon {
+struct POLYLOC_EXPORT RawPolygon {
   Ring outer;
   std::vector<Ring> holes;
 };
-struct RawMap {
+struct POLYLOC_EXPORT RawMap {
   std::vector<RawPolygon> polygons;
   std::vector<Polyline> walls_beyond;
 };
 
 /// A valid map and what had to be done to get it.
-struct RepairedMap {
+struct POLYLOC_EXPORT RepairedMap {
   PolygonMap map;
   std::vector<Defect> defects;  ///< all that was found, repaired ones too
   std::vector<Repair> repairs;
 };
 
 /// What there is to say of a raw map, usable or not.
-struct MapInspection {
+struct POLYLOC_EXPORT MapInspection {
   std::optional<PolygonMap> map;   ///< the valid map, if every defect could be repaired
   std::vector<Defect> defects;     ///< all that was found, repaired ones too
   std::vector<Defect> unrepaired;  ///< those in the way; empty exactly if there is a map

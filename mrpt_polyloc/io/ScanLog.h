@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/io/readings.h>
 #include <mrpt_polyloc/io/scan_files.h>
 
@@ -17,7 +18,7 @@ namespace mrpt_polyloc {
 /// nameless temporary file, from which rows are read again. Rows are those of loadScans(): equal
 /// for logs of up to kSurveyed scans. Of longer ones only so many, spread evenly, are asked what
 /// the sensor is like (see surveySensor()).
-class ScanLog {
+class POLYLOC_EXPORT ScanLog {
  public:
   static constexpr std::size_t kSurveyed = 20'000;
 

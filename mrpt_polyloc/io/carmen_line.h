@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -7,7 +9,7 @@
 namespace mrpt_polyloc {
 
 /// One line of a CARMEN log, read field by field; every complaint names file and line.
-class CarmenLine {
+class POLYLOC_EXPORT CarmenLine {
  public:
   /// \param text must outlive the line
   /// \param number of the line, from 1

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/io/scan_files.h>
 #include <mrpt_polyloc/localization/scan/ScanSet.h>
 
@@ -10,7 +11,7 @@ namespace mrpt_polyloc {
 
 /// What a log holds moment by moment: the scans of one laser or of several, and how the robot came
 /// from one moment to the next.
-struct DriveLog {
+struct POLYLOC_EXPORT DriveLog {
   std::vector<Moment> moments;  ///< at least one
   /// Whether wheels say how the robot moved; without, every moment is after a gap.
   bool has_odometry = false;
@@ -29,7 +30,7 @@ struct DriveLog {
 /// \param options `sensor_label` may be a list with commas, or "all"
 /// \param noise of the wheels, which logs rarely tell
 /// \throws FormatError as loadScans(), also for a movement that is not finite
-DriveLog loadDrive(const std::string& path, const ScanFileOptions& options = {},
-                   const MotionNoise& noise = {}, Notes* notes = nullptr);
+POLYLOC_EXPORT DriveLog loadDrive(const std::string& path, const ScanFileOptions& options = {},
+                                  const MotionNoise& noise = {}, Notes* notes = nullptr);
 
 }  // namespace mrpt_polyloc

@@ -11,7 +11,7 @@
 namespace mrpt_polyloc {
 
 /// How grid maps become polygon maps.
-struct GridMapParams {
+struct POLYLOC_EXPORT GridMapParams {
   GridMapParams() { tracing.max_filled_unknown_area = 0.5; }
 
   BitmapCleaningParams cleaning;

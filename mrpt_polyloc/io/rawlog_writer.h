@@ -1,7 +1,6 @@
 #pragma once
 
 #include <mrpt_polyloc/base/export.h>
-
 #include <mrpt_polyloc/localization/scan/Motion.h>
 
 #include <mrpt/math/TPose2D.h>
@@ -19,7 +18,7 @@ POLYLOC_EXPORT void writeScansRawlog(const std::string& path,
                                      const std::vector<mrpt::obs::CObservation2DRangeScan>& scans);
 
 /// What a robot did and saw at one moment.
-struct RawlogMoment {
+struct POLYLOC_EXPORT RawlogMoment {
   mrpt::math::TPose2D movement{0, 0, 0};  ///< since the moment before, by its wheels [m, rad]
   std::vector<mrpt::obs::CObservation2DRangeScan> scans;
 };
@@ -27,7 +26,8 @@ struct RawlogMoment {
 /// Writes an MRPT rawlog of pairs of action and sensory frame, as MRPT's filters read it. \param
 /// noise what the actions say of the wheels, as MRPT's Gaussian motion model
 /// \throws as writeScansRawlog()
-void writeDriveRawlog(const std::string& path, const std::vector<RawlogMoment>& moments,
-                      const MotionNoise& noise);
+POLYLOC_EXPORT void writeDriveRawlog(const std::string& path,
+                                     const std::vector<RawlogMoment>& moments,
+                                     const MotionNoise& noise);
 
 }  // namespace mrpt_polyloc

@@ -18,7 +18,7 @@ namespace mrpt_polyloc {
 constexpr double kNoReturnShare = 0.98;
 
 /// Which readings of a sensor are measurements.
-struct ReadingLimits {
+struct POLYLOC_EXPORT ReadingLimits {
   double max_range = 0.0;  ///< [m]; not positive or not finite: not known
   double min_range = 0.0;  ///< hits nearer than this say nothing [m]
 };
@@ -38,7 +38,7 @@ POLYLOC_EXPORT Beam readingToBeam(double bearing, double range, bool valid,
                                   const ReadingLimits& limits);
 
 /// A scan as a log holds it, before it is known what its readings say.
-struct LoggedScan {
+struct POLYLOC_EXPORT LoggedScan {
   std::vector<double> ranges;                 ///< as read [m]
   std::vector<unsigned char> flags;           ///< whether each is flagged valid; empty: all are
   double max_range = 0.0;                     ///< as stated [m]; not positive or not finite: unsaid

@@ -15,7 +15,7 @@
 namespace mrpt_polyloc {
 
 /// What a particle filter is given at once: how the robot moved, and what it saw then.
-struct ReplayStep {
+struct POLYLOC_EXPORT ReplayStep {
   std::size_t object = 0;  ///< number of the object of the file that holds the scan
   /// Number of the pair of action and frame as MRPT counts them, none for a frame without an action
   /// before it; in logs of observations the number of the step.

@@ -11,7 +11,7 @@
 
 namespace mrpt_polyloc {
 
-struct ScanFileOptions {
+struct POLYLOC_EXPORT ScanFileOptions {
   /// Only scans of the sensor with this label; empty: all, if the file holds one label only.
   std::string sensor_label;
   /// Field of view of CARMEN FLASER scans, from the first beam to the last [rad]; it wins over what

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,6 +11,6 @@ namespace mrpt_polyloc {
 /// the robot's frame [rad], 0 where nothing is known of a beam; ranges [m], null where nothing is
 /// known; kinds: a character a beam, `h` hit, `n` no-return (its range is the maximum), `i`
 /// invalid.
-nlohmann::ordered_json toJson(const RangeScan& scan);
+POLYLOC_EXPORT nlohmann::ordered_json toJson(const RangeScan& scan);
 
 }  // namespace mrpt_polyloc

@@ -12,7 +12,7 @@
 namespace mrpt_polyloc {
 
 /// What the readings of one sensor over a whole log tell of it.
-struct SensorFacts {
+struct POLYLOC_EXPORT SensorFacts {
   ReadingLimits limits;
   std::vector<bool> robot_beams;  ///< by index: sees the robot itself; empty if none does
 };

@@ -13,7 +13,7 @@
 namespace mrpt_polyloc {
 
 /// What the search did.
-struct SearchStatistics {
+struct POLYLOC_EXPORT SearchStatistics {
   std::size_t positions = 0;   ///< candidate positions, or cells, in the index
   std::size_t evaluated = 0;   ///< nodes whose cost was bounded or evaluated
   std::size_t refined = 0;     ///< candidates refined
@@ -22,7 +22,7 @@ struct SearchStatistics {
 };
 
 /// All hypotheses for one scan, best first; empty unless status is unique or ambiguous.
-struct LocalizationResult {
+struct POLYLOC_EXPORT LocalizationResult {
   LocalizationStatus status = LocalizationStatus::too_few_beams;
   /// Probability that the scan was taken in this map, as far as its best answer tells (see
   /// MatchFeatures), if as many scans are foreign as are not; 0 where nothing was found.

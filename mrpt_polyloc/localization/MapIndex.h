@@ -27,7 +27,7 @@ struct POLYLOC_EXPORT MapIndexParams {
 };
 
 /// What preparing an index will take, on maps of buildings: memory within a factor of 2, time of 6.
-struct MapIndexEstimate {
+struct POLYLOC_EXPORT MapIndexEstimate {
   double bytes;        ///< of memory, kept
   double cpu_seconds;  ///< of one core, without loading the map
 };

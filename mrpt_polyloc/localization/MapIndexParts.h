@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/base/Lazy.h>
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/MapIndex.h>
@@ -12,7 +13,7 @@
 namespace mrpt_polyloc {
 
 /// What a MapIndex holds. Not installed: later versions will hold it otherwise.
-class MapIndexParts {
+class POLYLOC_EXPORT MapIndexParts {
  public:
   MapIndexParts(PolygonMap polygon_map, const MapIndexParams& params);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 
 #include <cstddef>
@@ -8,7 +9,7 @@
 namespace mrpt_polyloc {
 
 /// An answer over several maps.
-struct MultiMapResult {
+struct POLYLOC_EXPORT MultiMapResult {
   /// Hypotheses of all maps, ranked and weighed together; match_probability: that the scans were
   /// taken in one of the maps. Statistics are sums; certificate and regions are those of
   /// `of_map`.
@@ -22,7 +23,7 @@ struct MultiMapResult {
 /// all are compared by the evidence of the same beams, as those of one map are (see SetEvidence).
 ///
 /// Const, thread-safe, deterministic; a single map gives the answer of its localizer.
-class MultiMapLocalizer {
+class POLYLOC_EXPORT MultiMapLocalizer {
  public:
   /// \throws InvalidParamsError if there is none
   explicit MultiMapLocalizer(std::vector<GlobalLocalizer> localizers);

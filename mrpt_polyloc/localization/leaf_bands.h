@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/MapIndex.h>
 
 #include <mrpt/math/TPoint2D.h>
@@ -12,7 +13,7 @@ namespace mrpt_polyloc {
 
 /// What the certified search knows of one of its leaves: bounds of the ranges that are seen from
 /// anywhere in it. To be looked at; the search itself takes them as they are stored.
-struct LeafBands {
+struct POLYLOC_EXPORT LeafBands {
   std::size_t leaf = 0;
   std::vector<mrpt::math::TPoint2D> polygon;  ///< convex, counterclockwise [m]
   /// Of the directions from b * width to (b + 2) * width in the map, for each b.
@@ -27,6 +28,7 @@ struct LeafBands {
 
 /// The leaf that holds a point, nothing outside free space. Prepares the search tree if the index
 /// is a deferred one. O(leaves), some ms on large maps.
-std::optional<LeafBands> leafBandsAt(const MapIndex& index, const mrpt::math::TPoint2D& point);
+POLYLOC_EXPORT std::optional<LeafBands> leafBandsAt(const MapIndex& index,
+                                                    const mrpt::math::TPoint2D& point);
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/MapIndex.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 #include <mrpt_polyloc/localization/scan/RobustCostParams.h>
@@ -14,7 +15,7 @@ namespace mrpt_polyloc {
 /// A scan held against what the map predicts for it at a pose. The lists have an entry for each
 /// beam of the scan, in its order; of invalid beams nothing is predicted (infinity), and they cost
 /// nothing.
-struct ScanComparison {
+struct POLYLOC_EXPORT ScanComparison {
   std::vector<float> wall;  ///< range to the first wall [m]; infinity where there is none
   std::vector<float> open;  ///< range at which an open edge is crossed before it [m], or infinity
   std::vector<float> cost;  ///< robust cost [m]
@@ -32,8 +33,8 @@ struct ScanComparison {
 
 /// Prepares the predictor if the index is a deferred one. \throws InvalidParamsError if the pose is
 /// not finite
-ScanComparison compareWithMap(const MapIndex& index, const RangeScan& scan,
-                              const mrpt::math::TPose2D& pose_map_robot,
-                              const RobustCostParams& params = {});
+POLYLOC_EXPORT ScanComparison compareWithMap(const MapIndex& index, const RangeScan& scan,
+                                             const mrpt::math::TPose2D& pose_map_robot,
+                                             const RobustCostParams& params = {});
 
 }  // namespace mrpt_polyloc

@@ -32,7 +32,7 @@ struct POLYLOC_EXPORT ParticleSeederParams {
 };
 
 /// A pose of the robot in the map, with the logarithm of its share of belief.
-struct WeightedPose {
+struct POLYLOC_EXPORT WeightedPose {
   mrpt::math::TPose2D pose_map_robot;
   double log_weight = 0.0;
 };

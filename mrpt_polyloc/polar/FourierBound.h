@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/polar/PolarFunction.h>
 #include <mrpt_polyloc/polar/SampledPolarFunction.h>
 
@@ -19,7 +20,7 @@ namespace mrpt_polyloc {
 /// over its k rotations; the two must not be mixed. [m rad^(1/2)]
 /// \throws InvalidParamsError if the view is partial or, for k samples, order > (k - 1) / 2.
 /// O(pieces * order), or O(k).
-std::vector<double> fourierFeature(const PolarFunction& f, std::size_t order);
-std::vector<double> fourierFeature(const SampledPolarFunction& f, std::size_t order);
+POLYLOC_EXPORT std::vector<double> fourierFeature(const PolarFunction& f, std::size_t order);
+POLYLOC_EXPORT std::vector<double> fourierFeature(const SampledPolarFunction& f, std::size_t order);
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/polar/RotationRange.h>
 #include <mrpt_polyloc/polar/SampledPolarFunction.h>
 
@@ -14,10 +15,10 @@ namespace mrpt_polyloc {
 /// |distance^2 - integral| <= (2 pi / k) TV((f - g)^2).
 /// \throws InvalidParamsError if the numbers of samples differ or no sample is valid in both.
 /// [m rad^(1/2)], O(k).
-double distance(const SampledPolarFunction& f, const SampledPolarFunction& g);
+POLYLOC_EXPORT double distance(const SampledPolarFunction& f, const SampledPolarFunction& g);
 
 /// The rotation under which two views agree best.
-struct RotationMatch {
+struct POLYLOC_EXPORT RotationMatch {
   double distance = 0.0;        ///< of the views when f is turned by `rotation` [m rad^(1/2)]
   std::size_t index = 0;        ///< rotation = 2 pi index / k
   double rotation = 0.0;        ///< f turned counterclockwise by this fits g best [rad], [0, 2 pi)
@@ -35,7 +36,8 @@ struct RotationMatch {
 /// \throws InvalidParamsError if the numbers of samples differ, if both views are partial, or if
 /// the range is bad.
 /// [m rad^(1/2)], O(k log k) and O(k) for each rotation in doubt.
-RotationMatch distanceOverRotations(const SampledPolarFunction& f, const SampledPolarFunction& g,
-                                    const RotationRange& range = {});
+POLYLOC_EXPORT RotationMatch distanceOverRotations(const SampledPolarFunction& f,
+                                                   const SampledPolarFunction& g,
+                                                   const RotationRange& range = {});
 
 }  // namespace mrpt_polyloc

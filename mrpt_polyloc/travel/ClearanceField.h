@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/PolygonMap.h>
 
 #include <cstddef>
@@ -10,7 +11,7 @@ namespace mrpt_polyloc {
 /// How far the places of a map are from the border of free space, up to a limit: a table over a
 /// grid, looked up in constant time. Walls and open edges bound alike: a robot is not sent into
 /// what the map does not know. Immutable and thread-safe.
-class ClearanceField {
+class POLYLOC_EXPORT ClearanceField {
  public:
   /// Side of the grid's squares [m]; coarser for maps that would have more than kMostSquares.
   static constexpr double kSquare = 0.05;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/exact/SkeletonClasses.h>
 #include <mrpt_polyloc/travel/verification_tour.h>
 #include <mrpt_polyloc/visibility/VisibilityCells.h>
@@ -19,7 +20,7 @@ namespace mrpt_polyloc {
 /// one class and their skeletons lie alike. Places are points inside of the cells of all copies:
 /// the centre of each, and beside each of its corners. Robots move in straight lines between places
 /// that see each other, so that all lengths are those of walks over one graph.
-class ExactTravel {
+class POLYLOC_EXPORT ExactTravel {
  public:
   struct Run {
     double travel = 0.0;            ///< [m]

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/ranking/Hypothesis.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
@@ -10,7 +11,7 @@
 namespace mrpt_polyloc {
 
 /// A laser as the planner needs it: where its beams go and how far they reach.
-struct LaserModel {
+struct POLYLOC_EXPORT LaserModel {
   std::vector<double> bearings;       ///< in the robot frame, the sensor's yaw included [rad]
   mrpt::math::TPoint2D sensor{0, 0};  ///< of the beams' origin in the robot frame [m]
   double max_range = 20.0;            ///< [m]
@@ -29,11 +30,11 @@ struct LaserModel {
 ///
 /// `low` is where the view may end first: at the nearest wall or open edge; `high` where it ends at
 /// last, infinite where it need not. A beam through an open edge may end anywhere behind it.
-struct ExpectedReadings {
+struct POLYLOC_EXPORT ExpectedReadings {
   std::vector<float> low, high;
 };
 
-struct ExpectedReadingsParams {
+struct POLYLOC_EXPORT ExpectedReadingsParams {
   /// Bands are so much wider than what is predicted, on either side [m]: a lidar's noise and the
   /// map's own error.
   double tolerance = 0.05;
@@ -46,7 +47,7 @@ struct ExpectedReadingsParams {
 };
 
 /// Predicts such bands. Keeps a reference to the predictor. Const and thread-safe.
-class ReadingExpectation {
+class POLYLOC_EXPORT ReadingExpectation {
  public:
   /// \throws InvalidParamsError
   ReadingExpectation(const RangePredictor& predictor, const LaserModel& laser,

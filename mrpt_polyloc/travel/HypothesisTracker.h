@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
 #include <mrpt_polyloc/localization/scan/Motion.h>
@@ -15,7 +16,7 @@
 
 namespace mrpt_polyloc {
 
-struct HypothesisTrackerParams {
+struct POLYLOC_EXPORT HypothesisTrackerParams {
   /// How much of an independent scan each is. Not fitted: a tracker must come to a decision within
   /// some metres, and where a map is off by the same over metres it may be too sure.
   ScanCorrelation correlation{0.5, 0.7853981633974483};
@@ -41,7 +42,7 @@ struct HypothesisTrackerParams {
 };
 
 /// A pose that is followed.
-struct TrackedHypothesis {
+struct POLYLOC_EXPORT TrackedHypothesis {
   /// The same as long as it lives, and never given twice.
   std::uint64_t id = 0;
   mrpt::math::TPose2D pose_map_robot{0, 0, 0};                                   ///< now [m, rad]
@@ -52,7 +53,7 @@ struct TrackedHypothesis {
 };
 
 /// What the tracker holds after a scan.
-struct TrackingState {
+struct POLYLOC_EXPORT TrackingState {
   /// unique: the first hypothesis has unique_probability; ambiguous: some live, and none has;
   /// no_match: "none of these" is likelier than not, or none lives; too_few_beams: nothing was
   /// searched yet, for no scan said enough.
@@ -81,7 +82,7 @@ struct TrackingState {
 ///
 /// Deterministic: the same scans and movements give the same states. Not thread-safe; copyable, so
 /// that a planner may try what would be seen.
-class HypothesisTracker {
+class POLYLOC_EXPORT HypothesisTracker {
  public:
   /// \throws InvalidParamsError
   explicit HypothesisTracker(GlobalLocalizer localizer, HypothesisTrackerParams params = {},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/ranking/HypothesisParams.h>
 #include <mrpt_polyloc/localization/scan/BeamSectors.h>
 #include <mrpt_polyloc/travel/ExpectedReadings.h>
@@ -13,7 +14,7 @@ namespace mrpt_polyloc {
 /// predicts instead of what was read.
 ///
 /// Only what no reading can explain under both counts: the gap between two bands.
-class PairEvidence {
+class POLYLOC_EXPORT PairEvidence {
  public:
   /// Standard error of a scan's mean cost that real rooms add, by people and moved furniture, to
   /// what the two predictions differ by [m]: with it two beams of 120 are needed to tell.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/ranking/Hypothesis.h>
 #include <mrpt_polyloc/travel/ClearanceField.h>
 #include <mrpt_polyloc/travel/Sight.h>
@@ -10,7 +11,7 @@
 
 namespace mrpt_polyloc {
 
-struct SafeSetParams {
+struct POLYLOC_EXPORT SafeSetParams {
   double robot_radius = 0.25;  ///< of a disc that holds the robot however it turns [m]
   /// Kept free beside the robot [m]: what a small robot strays from its way in a metre, and what
   /// ClearanceField rounds.
@@ -37,7 +38,7 @@ struct SafeSetParams {
 /// (the map moved by its pose), or was seen free by a scan, and in which no scan hit anything.
 ///
 /// Where the robot stands closer to something than its margin, it may leave, not come closer.
-class SafeSet {
+class POLYLOC_EXPORT SafeSet {
  public:
   /// \param hypotheses of the robot now; their weights count only where the quorum is below 1
   /// \param sight in the robot's frame
@@ -97,7 +98,7 @@ class SafeSet {
 };
 
 /// Clearance [m] of a place of the robot's frame in the map as a hypothesis has it.
-double clearanceAt(const ClearanceField& field, const mrpt::math::TPose2D& pose_map_robot,
-                   const TPoint2D& place);
+POLYLOC_EXPORT double clearanceAt(const ClearanceField& field,
+                                  const mrpt::math::TPose2D& pose_map_robot, const TPoint2D& place);
 
 }  // namespace mrpt_polyloc

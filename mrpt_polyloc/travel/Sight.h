@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <mrpt/math/TPoint2D.h>
@@ -10,7 +11,7 @@
 namespace mrpt_polyloc {
 
 /// A scan, and where the robot was when it was taken, in the frame that is asked about.
-struct PlacedScan {
+struct POLYLOC_EXPORT PlacedScan {
   RangeScan scan;
   mrpt::math::TPose2D pose;  ///< of the robot [m, rad]
 };
@@ -22,7 +23,7 @@ struct PlacedScan {
 /// nothing have seen nothing, nor is anything known between beams far apart. (A no-return may be
 /// glass: it counts as free here, as it does for the robot's own obstacle avoidance. Beams between
 /// two neighbours are not known of, so only discs are asked about.)
-class Sight {
+class POLYLOC_EXPORT Sight {
  public:
   /// \param own_radius the robot stood in each place: so much around it is free [m]
   explicit Sight(const std::vector<PlacedScan>& scans, double own_radius);

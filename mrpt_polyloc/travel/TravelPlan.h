@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
@@ -19,10 +21,10 @@ enum class TravelStatus {
 };
 
 /// "go", "decided", "indistinguishable" or "blocked".
-const char* toString(TravelStatus status);
+POLYLOC_EXPORT const char* toString(TravelStatus status);
 
 /// Where to go next so that wrong hypotheses fall. All in the robot's frame of now.
-struct TravelPlan {
+struct POLYLOC_EXPORT TravelPlan {
   TravelStatus status = TravelStatus::decided;
   /// Where to stop and scan next, and how to turn there: the goal, or where the way to it leaves
   /// what is in sight now; or the robot's own place, where it is to turn first [m, rad].

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/MapIndex.h>
 #include <mrpt_polyloc/localization/ranking/Hypothesis.h>
 #include <mrpt_polyloc/travel/ClearanceField.h>
@@ -14,7 +15,7 @@
 namespace mrpt_polyloc {
 
 /// What a robot knows when it asks where to go. All places in its frame of now.
-struct TravelSituation {
+struct POLYLOC_EXPORT TravelSituation {
   /// Where it may be now. Who keeps them over a drive is no matter of the planner.
   std::vector<Hypothesis> hypotheses;
   /// What it has seen, the last scan first: of that its laser's model is taken; all tell where it
@@ -37,7 +38,7 @@ struct TravelSituation {
 /// robot stands costs no way.
 ///
 /// Immutable; const calls are thread-safe and deterministic.
-class TravelPlanner {
+class POLYLOC_EXPORT TravelPlanner {
  public:
   /// Makes a table of the map's clearances. \throws InvalidParamsError, also if the index is null
   TravelPlanner(MapIndex::Ptr index, TravelPlannerParams params = {});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/ranking/HypothesisParams.h>
 #include <mrpt_polyloc/travel/ExpectedReadings.h>
 #include <mrpt_polyloc/travel/SafeSet.h>
@@ -19,10 +20,10 @@ enum class TravelStrategy {
   random     ///< any place within reach: what the others are compared with
 };
 
-const char* toString(TravelStrategy strategy);
-std::optional<TravelStrategy> travelStrategyFrom(const std::string& name);
+POLYLOC_EXPORT const char* toString(TravelStrategy strategy);
+POLYLOC_EXPORT std::optional<TravelStrategy> travelStrategyFrom(const std::string& name);
 
-struct TravelPlannerParams {
+struct POLYLOC_EXPORT TravelPlannerParams {
   TravelStrategy strategy = TravelStrategy::greedy;
   SafeSetParams safe;
   ExpectedReadingsParams readings;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/ranking/Hypothesis.h>
 #include <mrpt_polyloc/travel/ClearanceField.h>
 #include <mrpt_polyloc/travel/PairEvidence.h>
@@ -12,7 +13,7 @@
 namespace mrpt_polyloc {
 
 /// What a scan at a place is expected to tell about hypotheses.
-class TravelValues {
+class POLYLOC_EXPORT TravelValues {
  public:
   struct Value {
     double told = 0.0;  ///< share of the pairs, by weight, that is told apart

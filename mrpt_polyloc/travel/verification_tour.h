@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,7 +15,7 @@ namespace mrpt_polyloc {
 using TravelGraph = std::vector<std::vector<std::pair<std::uint32_t, double>>>;
 
 /// Distances [m] of all places from one; infinity where there is no way.
-std::vector<double> distancesFrom(const TravelGraph& graph, std::size_t start);
+POLYLOC_EXPORT std::vector<double> distancesFrom(const TravelGraph& graph, std::size_t start);
 
 /// The most rivals a tour is found for: its cost grows with two to their power.
 constexpr std::size_t kMostTourRivals = 16;
@@ -26,8 +28,8 @@ constexpr std::size_t kMostTourRivals = 16;
 /// \param back whether the way back counts
 /// \return none if some rival is told apart nowhere within reach
 /// \throws InvalidParamsError for more rivals than kMostTourRivals
-std::optional<double> shortestVerificationTour(const TravelGraph& graph, std::size_t start,
-                                               const std::vector<std::uint32_t>& told,
-                                               std::size_t rivals, bool back = true);
+POLYLOC_EXPORT std::optional<double> shortestVerificationTour(
+    const TravelGraph& graph, std::size_t start, const std::vector<std::uint32_t>& told,
+    std::size_t rivals, bool back = true);
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/geometry/WallDistances.h>
 #include <mrpt_polyloc/visibility/BeamPattern.h>
@@ -17,7 +18,7 @@ namespace mrpt_polyloc {
 /// [m]. `wall[i]`: range to the first wall, infinity where there is none, or none before the beam
 /// has gone as far as the horizon past where it left free space. `open[i]`: range at which the beam
 /// first left free space for unknown space before a wall, else infinity.
-struct PredictedRanges {
+struct POLYLOC_EXPORT PredictedRanges {
   std::vector<float> wall;
   std::vector<float> open;
 };
@@ -25,7 +26,7 @@ struct PredictedRanges {
 /// The line of the first wall that each beam of one pose hits, in the beam frame: its normal
 /// divided by its distance [1/m]. The range to the wall is 1 / (along * cos(bearing) + across *
 /// sin(bearing)); both are 0 where no wall is hit.
-struct PredictedHits {
+struct POLYLOC_EXPORT PredictedHits {
   std::vector<float> along, across;
 };
 
@@ -38,7 +39,7 @@ struct PredictedHits {
 /// within some 1e-6 rad.
 /// Cost: a few ns per listed edge and 0.1 ns per covered beam. Const and thread-safe. A pose
 /// outside the indexed squares is answered from all edges, more slowly.
-class RangePredictor {
+class POLYLOC_EXPORT RangePredictor {
  public:
   /// Side of the squares [m]: the measured optimum between long lists and many squares on floor
   /// plans.

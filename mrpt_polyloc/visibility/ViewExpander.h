@@ -11,7 +11,7 @@ namespace mrpt_polyloc {
 /// A piece of a triangulation edge as seen from a viewpoint: of the edge from vertex `right` to
 /// vertex `left` (counterclockwise around the viewpoint) the part between the rays through the
 /// vertices `right_limit` and `left_limit`. Where end and limit are one vertex, the end is seen.
-struct VisibleEdge {
+struct POLYLOC_EXPORT VisibleEdge {
   std::int32_t right;
   std::int32_t left;
   std::int32_t right_limit;
@@ -20,7 +20,7 @@ struct VisibleEdge {
 };
 
 /// What is seen from a point, as pieces of edges in counterclockwise order.
-struct View {
+struct POLYLOC_EXPORT View {
   TPoint2D viewpoint{0, 0};
   /// Where the view ends: walls, and the rim of the box where no wall stops it.
   std::vector<VisibleEdge> ends;

@@ -30,7 +30,7 @@ class POLYLOC_EXPORT CellBudgetError : public std::runtime_error {
   CellEstimate estimate;
 };
 
-struct VisibilityCellsParams {
+struct POLYLOC_EXPORT VisibilityCellsParams {
   /// Cells at most; more are refused before anything is built.
   std::size_t max_cells = 1'000'000;
   /// Vertices farther away than this [m] are not told apart by cells. See VisibilityCells.

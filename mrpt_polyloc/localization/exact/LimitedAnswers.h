@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
+
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
@@ -11,7 +13,7 @@ namespace mrpt_polyloc {
 /// All poses from which a view of limited range is seen. Where it holds a corner, these are points;
 /// where it holds but one wall or two parallel ones, the robot may move along them; where it holds
 /// nothing, it may stand anywhere far enough from every border.
-struct LimitedAnswers {
+struct POLYLOC_EXPORT LimitedAnswers {
   struct Segment {
     mrpt::math::TPoint2D from, to;  ///< of the robot in the map, both ends with it [m]
     double heading;                 ///< at every point of it [rad]

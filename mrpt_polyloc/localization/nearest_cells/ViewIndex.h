@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/polar/RotationRange.h>
 #include <mrpt_polyloc/polar/SampledPolarFunction.h>
 
@@ -19,7 +20,7 @@ namespace mrpt_polyloc {
 /// (doc/performance.md); and for a partial query, or one with a reach, there is no triangle
 /// inequality that it could go by, since what is compared depends on the rotation.
 /// Immutable, all queries const and thread-safe.
-class ViewIndex {
+class POLYLOC_EXPORT ViewIndex {
  public:
   /// Of the Fourier features. More would cost memory traffic and rule out little more.
   static constexpr std::size_t kOrder = 15;

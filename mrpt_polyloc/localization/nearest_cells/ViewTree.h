@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/nearest_cells/MetricTree.h>
 #include <mrpt_polyloc/localization/nearest_cells/ViewIndex.h>
 
@@ -13,7 +14,7 @@ namespace mrpt_polyloc {
 /// metric far more often than ViewIndex does (doc/performance.md): it is the reference.
 ///
 /// Immutable, queries const and thread-safe. Refers to the index, which must outlive it.
-class ViewTree {
+class POLYLOC_EXPORT ViewTree {
  public:
   /// O(n log n) evaluations of the metric, as a rule, for n views.
   explicit ViewTree(const ViewIndex& views);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/scan/ScanSet.h>
 
 #include <vector>
@@ -9,7 +10,7 @@ namespace mrpt_polyloc {
 /// How near two scans must be to say the same. What speaks for one pose against another changes
 /// with the place: over a distance d the correlation falls as exp(-d / distance), a turn counting
 /// as `distance` metres for each `angle`.
-struct ScanCorrelation {
+struct POLYLOC_EXPORT ScanCorrelation {
   /// [m]; fitted on short drives of four real sets (see doc/localization.md): maps are off by the
   /// same for scans metres apart.
   double distance = 2.0;
@@ -29,7 +30,7 @@ struct ScanCorrelation {
 /// weights of a mean are C^-1 1, and the variance of that mean is that of one moment divided by
 /// 1' C^-1 1 (Gauss-Markov): the number of independent moments, 1 for a robot that stands still
 /// however often it looks.
-struct MomentWeights {
+struct POLYLOC_EXPORT MomentWeights {
   MomentWeights(const ScanSet& set, const ScanCorrelation& correlation);
 
   std::vector<double> weights;                    ///< not negative, sum 1

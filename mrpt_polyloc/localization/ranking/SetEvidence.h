@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/ranking/MomentWeights.h>
 #include <mrpt_polyloc/localization/scan/BeamEvidenceParams.h>
 #include <mrpt_polyloc/localization/scan/BeamSectors.h>
@@ -14,7 +15,7 @@ namespace mrpt_polyloc {
 
 /// What speaks against a way through the map (the robot's pose at each moment of a scan set): the
 /// evidence of every beam of every scan, and how two ways compare by it.
-class SetEvidence {
+class POLYLOC_EXPORT SetEvidence {
  public:
   /// Beam by beam, the lasers of a moment one after the other [m].
   using Values = std::vector<std::vector<float>>;  // of each moment
@@ -50,6 +51,6 @@ class SetEvidence {
 
 /// By how many standard errors a difference of the evidence stands out, with its sign.
 /// \param indifference a standard error below this counts as this [m], see HypothesisParams
-double standardErrors(const PairedDifference& difference, double indifference);
+POLYLOC_EXPORT double standardErrors(const PairedDifference& difference, double indifference);
 
 }  // namespace mrpt_polyloc

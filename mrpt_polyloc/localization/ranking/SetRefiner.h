@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/ranking/Calibration.h>
 #include <mrpt_polyloc/localization/ranking/MomentWeights.h>
 #include <mrpt_polyloc/localization/scan/PoseRefiner.h>
@@ -14,7 +15,7 @@
 namespace mrpt_polyloc {
 
 /// A way through the map that a scan set may have been seen from, at its local optimum.
-struct RefinedWay {
+struct POLYLOC_EXPORT RefinedWay {
   std::vector<mrpt::math::TPose2D> poses;  ///< of the robot in the map, at each moment
   mrpt::math::CMatrixDouble33 covariance;  ///< of the last of them
   /// By how much the movements between them differ from what the wheels said: the sum of squares in
@@ -23,7 +24,7 @@ struct RefinedWay {
 };
 
 /// What is known of the pose at the first moment before its scans, as a Gaussian.
-struct GaussianPose {
+struct POLYLOC_EXPORT GaussianPose {
   mrpt::math::TPose2D pose_map_robot{0, 0, 0};
   mrpt::math::CMatrixDouble33 covariance;
   /// How much the scans count beside it, in (0, 1]: less than one if they are not independent of
@@ -36,7 +37,7 @@ struct GaussianPose {
 ///
 /// A sector of ten degrees counts as one observation (see BeamSectors), a moment as MomentWeights
 /// says. Cost: that of PoseRefiner for each scan, and a system of three unknowns a moment.
-class SetRefiner {
+class POLYLOC_EXPORT SetRefiner {
  public:
   /// Keeps references to predictor and set. At most `max_beams` hits a scan are used; 0: all.
   SetRefiner(const RangePredictor& predictor, const ScanSet& set, const MomentWeights& weights,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/base/Budget.h>
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/ranking/Assessment.h>
 #include <mrpt_polyloc/localization/ranking/MomentWeights.h>
@@ -20,9 +21,11 @@ namespace mrpt_polyloc {
 /// \param candidates poses of the ROBOT in the map now, any order
 /// \param prior of the robot now. The pose now must be allowed, those before need not: there the
 /// scans themselves speak
-Assessment rankCandidates(const std::vector<mrpt::math::TPose2D>& candidates, const ScanSet& set,
-                          const MomentWeights& weights, const Triangulation& triangulation,
-                          const PosePrior& prior, const RangePredictor& predictor,
-                          const RankingParams& params = {}, const Budget& budget = Budget());
+POLYLOC_EXPORT Assessment rankCandidates(const std::vector<mrpt::math::TPose2D>& candidates,
+                                         const ScanSet& set, const MomentWeights& weights,
+                                         const Triangulation& triangulation, const PosePrior& prior,
+                                         const RangePredictor& predictor,
+                                         const RankingParams& params = {},
+                                         const Budget& budget = Budget());
 
 }  // namespace mrpt_polyloc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/scan/BeamEvidenceParams.h>
 #include <mrpt_polyloc/localization/scan/ScanCost.h>
 
@@ -16,7 +17,7 @@ namespace mrpt_polyloc {
 /// meets first is not what the map says, and yet its end lies on a wall. The second fails where
 /// walls are everywhere alike, in corridors. Each corrects the other. Points count by the space
 /// they take, not by the angle: else one near wall outvotes the rest.
-class BeamEvidence {
+class POLYLOC_EXPORT BeamEvidence {
  public:
   /// Keeps references to the cost and its predictor.
   explicit BeamEvidence(const ScanCost& cost, const BeamEvidenceParams& params = {});

@@ -17,7 +17,7 @@ namespace mrpt_polyloc {
 enum class BeamKind : std::uint8_t { hit, no_return, invalid };
 
 /// One beam of a scan.
-struct Beam {
+struct POLYLOC_EXPORT Beam {
   double bearing = 0.0;  ///< direction in the ROBOT frame (the sensor's yaw is included) [rad]
   double range = 0.0;    ///< from the sensor [m]; for no_return the maximum range; 0 if invalid
   BeamKind kind = BeamKind::invalid;

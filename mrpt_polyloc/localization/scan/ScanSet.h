@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/scan/Motion.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
@@ -9,7 +10,7 @@
 namespace mrpt_polyloc {
 
 /// What a robot saw at one moment, with one laser or several, and how it came there.
-struct Moment {
+struct POLYLOC_EXPORT Moment {
   std::vector<RangeScan> scans;
   Motion since_before;  ///< since the moment before; of the first moment it is not looked at
   /// Nothing is known of the way here: what was before does not belong to it.
@@ -20,7 +21,7 @@ struct Moment {
 /// The robot's pose at each is known from now, the last moment, up to the wheels' errors.
 ///
 /// Never empty. Immutable.
-class ScanSet {
+class POLYLOC_EXPORT ScanSet {
  public:
   explicit ScanSet(RangeScan scan);
   /// Several lasers of one moment. \throws InvalidParamsError as below
@@ -52,7 +53,7 @@ class ScanSet {
 /// Scans with time stamps at most so far apart are of one moment [s].
 constexpr double kOneMoment = 0.05;
 
-struct LastMetresParams {
+struct POLYLOC_EXPORT LastMetresParams {
   double length = 2.0;  ///< what was seen on the last so many metres is kept [m]; 0: now alone
   /// Of moments nearer together than this [m] ...
   double spacing = 0.2;
@@ -70,11 +71,11 @@ struct LastMetresParams {
 /// What was seen on the last metres of a drive before a moment, and at it.
 /// \param now index into `drive`
 /// \throws InvalidParamsError as ScanSet
-ScanSet lastMetres(const std::vector<Moment>& drive, std::size_t now,
-                   const LastMetresParams& params = {});
+POLYLOC_EXPORT ScanSet lastMetres(const std::vector<Moment>& drive, std::size_t now,
+                                  const LastMetresParams& params = {});
 
 /// Gathers the last metres of a drive, moment by moment.
-class ScanAccumulator {
+class POLYLOC_EXPORT ScanAccumulator {
  public:
   /// \throws InvalidParamsError
   explicit ScanAccumulator(const LastMetresParams& params = {});
