@@ -1,5 +1,4 @@
 #include <mrpt_polyloc/localization/ranking/SetEvidence.h>
-#include <mrpt_polyloc/localization/scan/beam_evidence.h>
 
 #include <cmath>
 #include <numeric>
@@ -18,7 +17,7 @@ double meanOf(const std::vector<float>& values) {
 SetEvidence::SetEvidence(const RangePredictor& predictor, const ScanSet& set,
                          const MomentWeights& weights, const RobustCostParams& cost,
                          const BeamEvidenceParams& evidence)
-    : set_(&set), weights_(&weights), evidence_(evidence) {
+    : set_(&set), weights_(&weights) {
   for (const Moment& moment : set.moments()) {
     std::vector<ScanCost> costs;
     std::vector<Beam> beams;
@@ -26,6 +25,8 @@ SetEvidence::SetEvidence(const RangePredictor& predictor, const ScanSet& set,
       costs.emplace_back(predictor, scan, cost);
       beams.insert(beams.end(), costs.back().beams().begin(), costs.back().beams().end());
     }
+    evidence_.emplace_back();
+    for (const ScanCost& of_scan : costs) evidence_.back().emplace_back(of_scan, evidence);
     costs_.push_back(std::move(costs));
     sectors_.emplace_back(beams);
   }
@@ -48,11 +49,10 @@ double SetEvidence::cost(const std::vector<mrpt::math::TPose2D>& way) const {
 
 SetEvidence::Values SetEvidence::at(const std::vector<mrpt::math::TPose2D>& way) const {
   Values values(costs_.size());
-  PredictedRanges predicted;
   for (std::size_t k = 0; k < costs_.size(); ++k) {
     for (std::size_t i = 0; i < costs_[k].size(); ++i) {
-      costs_[k][i].predict(set_->moments()[k].scans[i].beamFrameFromRobot(way[k]), predicted);
-      const std::vector<float> of_scan = beamEvidence(costs_[k][i].beams(), predicted, evidence_);
+      const std::vector<float> of_scan =
+          evidence_[k][i].at(set_->moments()[k].scans[i].beamFrameFromRobot(way[k]));
       values[k].insert(values[k].end(), of_scan.begin(), of_scan.end());
     }
   }

@@ -2,7 +2,7 @@
 
 #include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/ranking/MomentWeights.h>
-#include <mrpt_polyloc/localization/scan/BeamEvidenceParams.h>
+#include <mrpt_polyloc/localization/scan/BeamEvidence.h>
 #include <mrpt_polyloc/localization/scan/BeamSectors.h>
 #include <mrpt_polyloc/localization/scan/ScanCost.h>
 #include <mrpt_polyloc/localization/scan/ScanSet.h>
@@ -44,9 +44,9 @@ class POLYLOC_EXPORT SetEvidence {
  private:
   const ScanSet* set_;
   const MomentWeights* weights_;
-  BeamEvidenceParams evidence_;
-  std::vector<std::vector<ScanCost>> costs_;  ///< of each moment's scans
-  std::vector<BeamSectors> sectors_;          ///< of each moment
+  std::vector<std::vector<ScanCost>> costs_;         ///< of each moment's scans
+  std::vector<std::vector<BeamEvidence>> evidence_;  ///< the same
+  std::vector<BeamSectors> sectors_;                 ///< of each moment
 };
 
 /// By how many standard errors a difference of the evidence stands out, with its sign.

@@ -8,13 +8,13 @@
 
 namespace mrpt_polyloc {
 
-BeamEvidence::BeamEvidence(const ScanCost& cost, const BeamEvidenceParams& params)
-    : cost_(&cost), params_(params) {
+BeamEvidence::BeamEvidence(ScanCost cost, const BeamEvidenceParams& params)
+    : cost_(std::move(cost)), params_(params) {
   using Place = std::pair<std::int64_t, std::int64_t>;
   std::map<Place, std::size_t> held;  // points of each square
   std::vector<Place> squares;
-  for (std::size_t i = 0; i < cost.beams().size(); ++i) {
-    const Beam& beam = cost.beams()[i];
+  for (std::size_t i = 0; i < cost_.beams().size(); ++i) {
+    const Beam& beam = cost_.beams()[i];
     if (beam.kind != BeamKind::hit) continue;
     const double x = beam.range * std::cos(beam.bearing), y = beam.range * std::sin(beam.bearing);
     points_.push_back({i, x, y, 0.0});
@@ -29,7 +29,7 @@ BeamEvidence::BeamEvidence(const ScanCost& cost, const BeamEvidenceParams& param
 /// Calls visit(point, nearness of it to a wall).
 template <class Visitor>
 void BeamEvidence::forEachPoint(const mrpt::math::TPose2D& pose, Visitor&& visit) const {
-  const WallDistances& walls = cost_->predictor().wallDistances();
+  const WallDistances& walls = cost_.predictor().wallDistances();
   const double cosine = std::cos(pose.phi), sine = std::sin(pose.phi);
   const double scale = -0.5 / (params_.wall_sigma * params_.wall_sigma);
   for (const Point& point : points_) {
@@ -41,8 +41,8 @@ void BeamEvidence::forEachPoint(const mrpt::math::TPose2D& pose, Visitor&& visit
 
 std::vector<float> BeamEvidence::at(const mrpt::math::TPose2D& pose) const {
   PredictedRanges predicted;
-  cost_->predict(pose, predicted);
-  std::vector<float> evidence = beamEvidence(cost_->beams(), predicted, params_);
+  cost_.predict(pose, predicted);
+  std::vector<float> evidence = beamEvidence(cost_.beams(), predicted, params_);
   const double scale = params_.off_wall_cost * static_cast<double>(evidence.size());
   forEachPoint(pose, [&](const Point& point, double nearness) {
     evidence[point.beam] += static_cast<float>(scale * point.weight * (1.0 - nearness));

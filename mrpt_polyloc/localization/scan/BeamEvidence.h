@@ -19,8 +19,8 @@ namespace mrpt_polyloc {
 /// they take, not by the angle: else one near wall outvotes the rest.
 class POLYLOC_EXPORT BeamEvidence {
  public:
-  /// Keeps references to the cost and its predictor.
-  explicit BeamEvidence(const ScanCost& cost, const BeamEvidenceParams& params = {});
+  /// Keeps a reference to the cost's predictor.
+  explicit BeamEvidence(ScanCost cost, const BeamEvidenceParams& params = {});
 
   /// For each beam of the cost [m]; the mean over the beams is the evidence against the pose.
   std::vector<float> at(const mrpt::math::TPose2D& pose_map_beams) const;
@@ -33,7 +33,7 @@ class POLYLOC_EXPORT BeamEvidence {
   template <class Visitor>
   void forEachPoint(const mrpt::math::TPose2D& pose_map_beams, Visitor&& visit) const;
 
-  const ScanCost* cost_;
+  ScanCost cost_;
   BeamEvidenceParams params_;
   struct Point {
     std::size_t beam;

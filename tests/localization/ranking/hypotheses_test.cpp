@@ -1,7 +1,7 @@
 #include "tests/support/params_messages.h"
 #include "tests/support/simulated_scans.h"
 #include <mrpt_polyloc/localization/ranking/hypotheses.h>
-#include <mrpt_polyloc/localization/scan/beam_evidence.h>
+#include <mrpt_polyloc/localization/scan/BeamEvidence.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -99,11 +99,7 @@ TEST_F(InASquare, WeightsAreTheSoftmaxOfTheErrorsBehind) {
 
 TEST_F(InASquare, ErrorsBehindAreThoseOfTheEvidenceBySectors) {
   // The same, from the definition: sums over the 36 sectors of ten degrees.
-  const auto evidence = [&](const TPose2D& pose) {
-    PredictedRanges predicted;
-    cost_.predict(pose, predicted);
-    return beamEvidence(cost_.beams(), predicted);
-  };
+  const auto evidence = [&](const TPose2D& pose) { return BeamEvidence(cost_).at(pose); };
   const auto best = evidence(truth_), other = evidence(wrong_);
   std::vector<std::vector<double>> sectors(36);
   double mean = 0.0;
