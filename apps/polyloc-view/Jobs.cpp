@@ -25,6 +25,7 @@ Jobs::Ticket::~Ticket() {
 
 void Jobs::Ticket::enter() {
   std::unique_lock<std::mutex> lock(jobs_.mutex_);
+  if (has_slot_) return;
   jobs_.waiting_.push_back(this);
   jobs_.changed_.wait(lock, [this] {
     return cancelled_ || (jobs_.free_slots_ > 0 && jobs_.waiting_.front() == this);

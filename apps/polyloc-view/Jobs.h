@@ -26,7 +26,7 @@ class Jobs {
     Ticket(const Ticket&) = delete;
     Ticket& operator=(const Ticket&) = delete;
 
-    /// Waits for its turn. \throws ApiError if it is cancelled before
+    /// Waits for its turn, if it has not had it. \throws ApiError if it is cancelled before
     void enter();
     const std::atomic<bool>& cancelled() const { return cancelled_; }
     /// \throws ApiError if it is cancelled

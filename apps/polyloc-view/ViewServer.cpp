@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <arpa/inet.h>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <functional>
 #include <httplib.h>
@@ -276,11 +277,16 @@ int ViewServer::bind(int port) {
 
 void ViewServer::serve() {
   server_->listen_after_bind();
+  has_ended_ = true;
 }
 
 void ViewServer::stop() {
   jobs_.stop();
-  server_->stop();
+  // Httplib does not hear it before it runs.
+  while (!has_ended_ && !server_->is_running()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  if (!has_ended_) server_->stop();
 }
 
 }  // namespace mrpt_polyloc::apps

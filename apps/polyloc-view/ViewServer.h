@@ -4,6 +4,7 @@
 #include "RequestGuard.h"
 #include "endpoints.h"
 
+#include <atomic>
 #include <memory>
 #include <string>
 
@@ -31,7 +32,8 @@ class ViewServer {
   int bind(int port);
   /// Answers until stop() is called.
   void serve();
-  /// From any thread: cancels what is being computed, and ends serve().
+  /// From another thread than serve()'s, which must be running or about to: cancels what is being
+  /// computed, and ends it.
   void stop();
 
  private:
@@ -43,6 +45,7 @@ class ViewServer {
   Services services_;
   Jobs jobs_;
   std::unique_ptr<httplib::Server> server_;
+  std::atomic<bool> has_ended_{false};
   int listening_ = -1;  ///< socket of the server, which is its owner
 };
 

@@ -43,18 +43,20 @@ Json answerSimulate(const Services& services, const RequestField& request, Jobs:
   request.allowOnly({"pose", "laser", "changes", "search", "job"});
   const TPose2D pose = readPose(request.member("pose"));
   const LaserRequest laser = readLaser(request);
+  const auto search_field = request.find("search");
+  if (search_field) search_field->allowOnly({"prior", "options"});
+  const SearchRequest search = search_field ? readSearch(*search_field) : SearchRequest{};
+  const bool is_exact = search.method == Method::exact;
+  // Who waits for the index must not keep others from computing.
+  if (search_field && !is_exact) services.session.index(ticket.cancelled());
+  ticket.enter();
   const RangeScan scan = simulated(services.session, laser, pose);
   Json json = {{"scan", toJson(scan)}};
-  const auto search_field = request.find("search");
-  if (!search_field) return json;
-  search_field->allowOnly({"prior", "options"});
-  const SearchRequest search = readSearch(*search_field);
-  if (search.method == Method::exact) {
+  if (search_field && is_exact) {
     const std::vector<TPoint2D> view = seenPolygon(services.session, pose);
-    ticket.enter();
     json["polygon"] = flatPoints(view);
     json["result"] = searchAnswer(services, view, search);
-  } else {
+  } else if (search_field) {
     json["result"] = searchAnswer(services, scan, search, ticket);
   }
   return json;

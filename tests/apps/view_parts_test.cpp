@@ -46,6 +46,15 @@ TEST(Jobs, ANewerTicketCancelsTheOlderOfItsJobAlone) {
   EXPECT_NO_THROW(nameless.check());
 }
 
+TEST(Jobs, EnteringTwiceTakesOneSlot) {
+  Jobs jobs(2);
+  Jobs::Ticket first(jobs, ""), second(jobs, "");
+  first.enter();
+  first.enter();
+  second.enter();  // would wait for ever
+  EXPECT_FALSE(second.cancelled());
+}
+
 TEST(Jobs, OneThatWaitsIsCancelled) {
   Jobs jobs(1);
   Jobs::Ticket computing(jobs, "");
