@@ -14,13 +14,13 @@
 ///   locdemo (37 scans)
 namespace mrpt_polyloc::default_calibration {
 
-constexpr double kMatchIntercept = -15.44549;
-constexpr double kLeastMatchProbability = 0.01652169;
-constexpr double kWeightDecay = 4.840728;
-constexpr double kUniqueProbability = 0.6227145;
-constexpr double kPositionFactor = 1.780324;
-constexpr double kHeadingFactor = 1.173026;
+constexpr double kMatchIntercept = -19.12686;
+constexpr double kLeastMatchProbability = 0.07869918;
+constexpr double kWeightDecay = 5.485024;
+constexpr double kUniqueProbability = 0.6347036;
+constexpr double kPositionFactor = 1.790487;
+constexpr double kHeadingFactor = 1.181889;
 /// explained, lead, heading, seen, on_walls
-constexpr std::array<double, 5> kMatchWeights = {6.54571, 11.23423, -1.255878, 3.657063, 0.0};
+constexpr std::array<double, 5> kMatchWeights = {0.276987, 10.46386, -1.188876, 3.162485, 11.56857};
 
 }  // namespace mrpt_polyloc::default_calibration
