@@ -2,6 +2,7 @@
 
 #include "../common/parsing.h"
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/io/GzInputStream.h>
 
 #include <algorithm>

@@ -9,6 +9,7 @@
 #include "list_run.h"
 #include "text_summary.h"
 #include <mrpt_polyloc/base/Stopwatch.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/evaluation/Summary.h>
 #include <mrpt_polyloc/evaluation/summary_json.h>
 

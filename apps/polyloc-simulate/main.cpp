@@ -6,6 +6,7 @@
 #include "../common/parsing.h"
 #include "../common/simulation_input.h"
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/evaluation/DriveSimulator.h>
 #include <mrpt_polyloc/evaluation/truth.h>
 #include <mrpt_polyloc/io/rawlog_writer.h>

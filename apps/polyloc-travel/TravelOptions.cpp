@@ -4,6 +4,7 @@
 #include "../common/parsing.h"
 #include "../common/scan_input.h"
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/number_text.h>
 
 #include <sstream>
 #include <vector>

@@ -4,6 +4,7 @@
 #include "ApiError.h"
 #include "page_files.h"
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/visibility/VisibilityCells.h>
 
 #include <nlohmann/json.hpp>

@@ -2,7 +2,9 @@
 #include "tests/support/random_maps.h"
 #include "tests/support/simulated_scans.h"
 #include <mrpt_polyloc/localization/CellLocalizer.h>
+#include <mrpt_polyloc/localization/nearest_cells/ViewIndex.h>
 #include <mrpt_polyloc/localization/nearest_cells/cell_views.h>
+#include <mrpt_polyloc/localization/nearest_cells/scan_view.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
 #include <mrpt_polyloc/visibility/VisibilityCells.h>
 #include <mrpt_polyloc/visibility/visibility_polygon.h>

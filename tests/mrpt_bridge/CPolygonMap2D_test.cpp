@@ -2,6 +2,7 @@
 #include "tests/support/temp_file.h"
 #include <mrpt_polyloc/evaluation/WallSegments.h>
 #include <mrpt_polyloc/io/geojson.h>
+#include <mrpt_polyloc/localization/scan/RobustCost.h>
 #include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
 
 #include <gmock/gmock.h>

@@ -93,7 +93,7 @@ TEST(NodeBands, OfACellTakeTheWiderGap) {
   ranges.gap_high.fill(6.0F);
   ranges.gap_high[3] = 8.0F;
   NodeBands bands;
-  bandsOfLeaf(ranges, bands);
+  bandsOfLeaf(ranges, 20.0, bands);
   EXPECT_EQ(bands[0].near_low, 1.0F);
   EXPECT_EQ(bands[0].wall_high, 9.0F);
   EXPECT_EQ(bands[0].gap_low, 1.5F);  // beyond the open edge, up to the wall
