@@ -34,7 +34,7 @@ POLYLOC_EXPORT Motion measuredMotion(const mrpt::math::TPose2D& pose_before_afte
                                      const MotionNoise& noise = {});
 
 /// First one movement, then the other; covariances to first order.
-Motion operator+(const Motion& first, const Motion& second);
+POLYLOC_EXPORT Motion operator+(const Motion& first, const Motion& second);
 
 /// The way back: the earlier pose seen from the later one; covariance to first order.
 POLYLOC_EXPORT Motion inverse(const Motion& motion);
