@@ -18,9 +18,9 @@ struct POLYLOC_EXPORT MapIndexParams {
   /// Side of the search's finest leaves [m]. Smaller ones are bounded more tightly; time of
   /// building and memory grow with the inverse square.
   double leaf_size = 0.25;
+  int threads = 0;  ///< for building; 0: all cores
   /// So far past the first open edge a beam meets what the map knows [m], see PredictedRanges.
   double horizon = 20.0;
-  int threads = 0;  ///< for building; 0: all cores
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;

@@ -122,6 +122,7 @@ TEST(Laws, TheParamsCostIsWhatHypothesesCost) {
   // And by the evidence's they are weighed: where nothing costs much, nothing is told apart.
   params.hypotheses.evidence.cost = {1e-3, 1e-3, 1e-3, 0.0, 0.8};
   params.hypotheses.evidence.hidden_cost = 0.0;
+  params.hypotheses.evidence.off_wall_cost = 0.0;
   const auto blind = GlobalLocalizer(index, params).localize(scan);
   EXPECT_NE(blind.status, LocalizationStatus::unique);
 }

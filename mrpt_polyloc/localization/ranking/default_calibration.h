@@ -4,7 +4,7 @@
 
 /// Written by polyloc-calibrate; do not edit.
 /// polyloc-calibrate SETS --own 1000000 --cluttered 60 --foreign 40
-///   --lost 0.003 --unique-right 0.995 --clutter-weight 0.1, on the sets
+///   --lost 0.001 --unique-right 0.995 --clutter-weight 0.1, on the sets
 ///   intel (454 scans)
 ///   fr079 (299 scans)
 ///   csail (202 scans)
@@ -15,8 +15,8 @@
 namespace mrpt_polyloc::default_calibration {
 
 constexpr double kMatchIntercept = -19.12686;
-constexpr double kLeastMatchProbability = 0.07869918;
-constexpr double kWeightDecay = 5.485024;
+constexpr double kLeastMatchProbability = 0.03716707;
+constexpr double kWeightDecay = 5.485084;
 constexpr double kUniqueProbability = 0.6347036;
 constexpr double kPositionFactor = 1.790487;
 constexpr double kHeadingFactor = 1.181889;

@@ -131,6 +131,7 @@ MatchFeatures featuresOf(const std::vector<ScoredWay>& ways, const ScoredWay& fi
       const double weight = weights.weights[k] * static_cast<double>(cost.beamCount());
       features.explained += weight * of_scan.explained;
       features.seen += weight * of_scan.seen;
+      features.on_walls += weight * of_scan.on_walls;
       features.lead = of_scan.lead;
       sum += weight;
     }
@@ -138,6 +139,7 @@ MatchFeatures featuresOf(const std::vector<ScoredWay>& ways, const ScoredWay& fi
   if (sum > 0.0) {
     features.explained /= sum;
     features.seen /= sum;
+    features.on_walls /= sum;
   }
   // As refinement gives it, before the calibration's factor.
   features.heading = 0.5 * std::log(first.refined.covariance(2, 2)) -

@@ -1,12 +1,20 @@
 #include <mrpt_polyloc/localization/scan/BeamEvidence.h>
 #include <mrpt_polyloc/localization/scan/beam_evidence.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <utility>
 
 namespace mrpt_polyloc {
+namespace {
+
+/// Nearer than this a point is on the wall [m]: the grid of distances is off by so much beside one,
+/// and by less where a twin's walls happen to lie on its corners.
+constexpr double kOnWall = 0.05;
+
+}  // namespace
 
 BeamEvidence::BeamEvidence(ScanCost cost, const BeamEvidenceParams& params)
     : cost_(std::move(cost)), params_(params) {
@@ -35,7 +43,8 @@ void BeamEvidence::forEachPoint(const mrpt::math::TPose2D& pose, Visitor&& visit
   for (const Point& point : points_) {
     const double distance = walls.at(pose.x + cosine * point.x - sine * point.y,
                                      pose.y + sine * point.x + cosine * point.y);
-    visit(point, distance < WallDistances::kReach ? std::exp(scale * distance * distance) : 0.0);
+    const double off = std::max(0.0, distance - kOnWall);
+    visit(point, distance < WallDistances::kReach ? std::exp(scale * off * off) : 0.0);
   }
 }
 

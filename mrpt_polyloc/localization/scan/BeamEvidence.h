@@ -25,8 +25,9 @@ class POLYLOC_EXPORT BeamEvidence {
   /// For each beam of the cost [m]; the mean over the beams is the evidence against the pose.
   std::vector<float> at(const mrpt::math::TPose2D& pose_map_beams) const;
 
-  /// How near the points lie to walls, in [0, 1]: the mean of exp(-d^2 / (2 wall_sigma^2)), d their
-  /// distance to the nearest wall, over the squares of `thinning` that hold points.
+  /// How near the points lie to walls, in [0, 1]: the mean of exp(-d^2 / (2 wall_sigma^2)), d by
+  /// how much more than 0.05 m they lie off the nearest wall, over the squares of `thinning` that
+  /// hold points.
   double nearness(const mrpt::math::TPose2D& pose_map_beams) const;
 
  private:

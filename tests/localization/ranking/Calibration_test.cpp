@@ -33,7 +33,8 @@ TEST(Calibration, TheOddsOfAMatchAreTheExponentialOfTheScore) {
     Calibration calibration;
     calibration.match_intercept = 3.0 * normal(random);
     for (double& weight : calibration.match_weights) weight = 2.0 * normal(random);
-    const MatchFeatures features{normal(random), normal(random), normal(random), normal(random)};
+    const MatchFeatures features{normal(random), normal(random), normal(random), normal(random),
+                                 normal(random)};
     const double p = calibration.matchProbability(features);
     EXPECT_GE(p, 0.0);
     EXPECT_LE(p, 1.0);
@@ -41,7 +42,8 @@ TEST(Calibration, TheOddsOfAMatchAreTheExponentialOfTheScore) {
                               calibration.match_weights[0] * features.explained +
                               calibration.match_weights[1] * features.lead +
                               calibration.match_weights[2] * features.heading +
-                              calibration.match_weights[3] * features.seen;
+                              calibration.match_weights[3] * features.seen +
+                              calibration.match_weights[4] * features.on_walls;
     if (std::abs(score) > 30) continue;
     const long double odds = static_cast<long double>(p) / (1.0L - static_cast<long double>(p));
     EXPECT_NEAR(static_cast<double>(std::log(odds) - score), 0.0, 1e-3) << score;
@@ -56,8 +58,8 @@ TEST(Calibration, TheOddsOfAMatchAreTheExponentialOfTheScore) {
 
 TEST(Calibration, AGoodFitIsAMatchAndABadOneIsNone) {
   const Calibration calibration;
-  const double good = calibration.matchProbability({0.97, 1.0, std::log(0.003), 0.97});
-  const double bad = calibration.matchProbability({0.45, 0.05, std::log(0.03), 0.6});
+  const double good = calibration.matchProbability({0.97, 1.0, std::log(0.003), 0.97, 0.95});
+  const double bad = calibration.matchProbability({0.45, 0.05, std::log(0.03), 0.6, 0.4});
   EXPECT_GT(good, 0.9);
   EXPECT_LT(bad, 0.1);
 }
@@ -88,7 +90,7 @@ TEST(Calibration, SignsMakeSense) {
   EXPECT_GT(calibration.match_weights[1], 0.0);  // lead
   EXPECT_LT(calibration.match_weights[2], 0.0);  // heading
   EXPECT_GT(calibration.match_weights[3], 0.0);  // seen
-  EXPECT_GT(calibration.matchProbability({1.0, 1.0, std::log(0.01), 1.0}), 0.99);
+  EXPECT_GT(calibration.matchProbability({1.0, 1.0, std::log(0.01), 1.0, 1.0}), 0.99);
   EXPECT_LT(calibration.matchProbability({0.3, 0.0, std::log(0.1), 0.8}), 0.01);
 }
 

@@ -44,7 +44,7 @@ TEST_F(BeamEvidenceTest, BehindGlassCostsLessOnAWallThanBesideIt) {
 }
 
 TEST_F(BeamEvidenceTest, PointsFallOffAsAGaussian) {
-  const ScanCost cost(predictor_, RangeScan({{0.0, 2.7, BeamKind::hit}}), {});
+  const ScanCost cost(predictor_, RangeScan({{0.0, 2.65, BeamKind::hit}}), {});
   BeamEvidenceParams params;
   params.wall_sigma = 0.3;
   EXPECT_NEAR(BeamEvidence(cost, params).nearness(pose_), std::exp(-0.5), 0.01);
