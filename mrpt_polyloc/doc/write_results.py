@@ -13,6 +13,7 @@ import json
 import pathlib
 import re
 import sys
+import textwrap
 
 HERE = pathlib.Path(__file__).resolve().parent
 PAGE = HERE / "results.md"
@@ -120,7 +121,16 @@ def page():
             "stands\n[there](../../apps/polyloc-eval/README.md#baselines).\n\n")
     for path in sorted((HERE / "results").glob("*.json")):
         text += section(path.stem, json.loads(path.read_text()))
-    return text.rstrip("\n") + "\n"
+    return "\n".join(wrapped(line) for line in text.rstrip("\n").split("\n")) + "\n"
+
+
+def wrapped(line):
+    """Prose of at most 100 columns; rows of tables and commands as they are."""
+    if len(line) <= 100 or line.startswith(("|", "    ")):
+        return line
+    indent = "  " if line.startswith("- ") else ""
+    return textwrap.fill(line, 100, subsequent_indent=indent, break_long_words=False,
+                         break_on_hyphens=False)
 
 
 def readme(text):

@@ -45,8 +45,8 @@ TEST_P(EveryProgram, UnknownFlagIsAUsageError) {
 
 INSTANTIATE_TEST_SUITE_P(Programs, EveryProgram,
                          testing::Values("polyloc-map", "polyloc-localize", "polyloc-eval",
-                                         "polyloc-simulate", "polyloc-calibrate",
-                                         "polyloc-dataset", "polyloc-travel"),
+                                         "polyloc-simulate", "polyloc-calibrate", "polyloc-dataset",
+                                         "polyloc-travel"),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            name[name.find('-')] = '_';
