@@ -100,10 +100,10 @@ TEST_F(TruthTest, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_THAT(errorOf("1 0 0 0 0 0 0 0.9\n"),
               AllOf(HasSubstr("line 1"), HasSubstr("length 0.900000")));
   EXPECT_THAT(errorOf("# nothing\n\n"), HasSubstr("holds no pose"));
-  EXPECT_THAT(errorOf(""), HasSubstr("holds no pose"));
+  EXPECT_THAT(errorOf(""), HasSubstr("empty file"));
   EXPECT_THAT(formatErrorOf([] { loadTum("/no/such/file.tum"); }),
-              HasSubstr("/no/such/file.tum: cannot be read"));
-  EXPECT_THAT(formatErrorOf([] { loadTum(::testing::TempDir()); }), HasSubstr("cannot be read"));
+              HasSubstr("/no/such/file.tum: no such file"));
+  EXPECT_THAT(formatErrorOf([] { loadTum(::testing::TempDir()); }), HasSubstr("is a directory"));
 }
 
 TEST_F(TruthTest, WritesWhatItReads) {
@@ -159,7 +159,7 @@ TEST_F(TruthTest, ReadsIndexedPoses) {
   EXPECT_FALSE(poses[1] || poses[3]);
   EXPECT_TRUE(isIndexedTruth(path_));
   EXPECT_FALSE(isIndexedTruth(write("# none\n1 0 0 0 0 0 0 1\n")));
-  EXPECT_FALSE(isIndexedTruth(write("")));
+  EXPECT_THROW(isIndexedTruth(write("")), FormatError);
 }
 
 TEST_F(TruthTest, RefusesWrongIndexedPoses) {
@@ -175,7 +175,7 @@ TEST_F(TruthTest, RefusesWrongIndexedPoses) {
   EXPECT_THAT(error("0 1 nan 3\n"), HasSubstr("'nan' is not a finite number"));
   EXPECT_THAT(error("# nothing\n"), HasSubstr("holds no pose"));
   EXPECT_THAT(formatErrorOf([] { loadIndexedTruth("/none/at/all", 2); }),
-              HasSubstr("cannot be read"));
+              HasSubstr("no such file"));
 }
 
 TEST_F(TruthTest, ReadsRowNumbers) {
