@@ -89,7 +89,7 @@ TEST_F(SearchIndexFile, RefusesNumbersOfAnotherLayoutWithARightChecksum) {
 TEST_F(SearchIndexFile, TakesNoMoreMemoryThanTheFileFills) {
   std::string other = content();
   const std::uint64_t huge = std::uint64_t{1} << 60;  // the first array's size
-  other.replace(8 + 4 + 4 + 4 * 8, sizeof(huge), reinterpret_cast<const char*>(&huge),
+  other.replace(8 + 4 + 4 + 5 * 8, sizeof(huge), reinterpret_cast<const char*>(&huge),
                 sizeof(huge));
   EXPECT_THAT(complaint(other), HasSubstr("the file ends too early"));
 }
