@@ -123,7 +123,7 @@ TEST_F(PolylocCalibrate, ACalibrationDecidesWhatIsRefused) {
 TEST_F(PolylocCalibrate, BadListsNameFileAndPlace) {
   makeSets();
   const std::string hall = "hall hall.wkt hall/scans.rawlog hall/truth.tum good.txt\n";
-  expectFailure("", "sets.txt", "fewer than two sets");
+  expectFailure("", "sets.txt", "empty file");
   expectFailure(hall, "sets.txt", "fewer than two sets");
   expectFailure(hall + "cross cross.wkt\n", "sets.txt", "line 2");
   expectFailure(hall + "\n" + hall, "sets.txt", "line 3");
