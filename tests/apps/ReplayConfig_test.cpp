@@ -31,7 +31,7 @@ class ReplayConfigTest : public test::ProgramTest {
 };
 
 TEST_F(ReplayConfigTest, HasTheDefaultsOfWhatItConfigures) {
-  const ReplayConfig config = load("");
+  const ReplayConfig config = load("# nothing\n");
   EXPECT_EQ(config.init, Init::polyloc);
   EXPECT_EQ(config.seeds.particles, ParticleSeederParams{}.particles);
   EXPECT_EQ(config.seeds.least_per_hypothesis, ParticleSeederParams{}.least_per_hypothesis);

@@ -138,8 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
         localize("fov_too_large", {"--laser-fov", "361"}, "'361' is not"),
         localize("no_hypotheses", {"--max-hypotheses", "0"}, "--max-hypotheses: '0'"),
         localize("no_threads", {"--threads", "0"}, "--threads: '0'"),
-        localize("threads_fraction", {"--threads", "1.5"}, "--threads: '1.5'"),
-        localize("map_twice", {"--map", "b.wkt"}, "--map")),
+        localize("threads_fraction", {"--threads", "1.5"}, "--threads: '1.5'")),
     [](const auto& tested) { return tested.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
