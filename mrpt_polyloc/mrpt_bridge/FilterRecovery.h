@@ -28,7 +28,7 @@ struct POLYLOC_EXPORT FilterRecoveryParams {
   /// The robot counts as found if the first hypothesis has at least so much of the weight, and fits
   /// as a healthy filter does. Else the filter waits for a scan that says more: a person who blocks
   /// the view makes it look like many places, or like none.
-  double sure_weight = 0.99;
+  double sure_weight = 0.995;
   /// But not for more scans than this: where the place is ambiguous the filter must follow all.
   std::size_t patience = 10;
   /// The fit is the mean over so many particles, taken evenly by weight: enough to see what most of
