@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/matrices.h>
 #include <mrpt_polyloc/localization/ranking/SetRefiner.h>
 #include <mrpt_polyloc/localization/scan/BeamSectors.h>
 
@@ -13,22 +14,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using mrpt::math::CMatrixDouble33;
 using mrpt::math::TPose2D;
-
-Matrix3d toEigen(const CMatrixDouble33& matrix) {
-  Matrix3d result;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) result(row, column) = matrix(row, column);
-  }
-  return result;
-}
-
-CMatrixDouble33 fromEigen(const Matrix3d& matrix) {
-  CMatrixDouble33 result;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) result(row, column) = matrix(row, column);
-  }
-  return result;
-}
 
 Matrix3d turnOf(double phi) {
   Matrix3d turn = Matrix3d::Identity();

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/matrices.h>
 #include <mrpt_polyloc/localization/ranking/pose_covariance.h>
 
 #include <Eigen/Dense>
@@ -7,22 +8,6 @@
 
 namespace mrpt_polyloc {
 namespace {
-
-Eigen::Matrix3d toEigen(const mrpt::math::CMatrixDouble33& matrix) {
-  Eigen::Matrix3d result;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) result(row, column) = matrix(row, column);
-  }
-  return result;
-}
-
-mrpt::math::CMatrixDouble33 fromEigen(const Eigen::Matrix3d& matrix) {
-  mrpt::math::CMatrixDouble33 result;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) result(row, column) = matrix(row, column);
-  }
-  return result;
-}
 
 /// \param factors of the standard deviations of x, y and phi
 Eigen::Matrix3d localCovariance(const RefinedPose& pose, std::size_t sectors,

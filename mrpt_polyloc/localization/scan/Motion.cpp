@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/matrices.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/localization/scan/Motion.h>
 
@@ -11,22 +12,6 @@ namespace {
 
 using mrpt::math::CMatrixDouble33;
 using mrpt::math::TPose2D;
-
-Eigen::Matrix3d toEigen(const CMatrixDouble33& matrix) {
-  Eigen::Matrix3d result;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) result(row, column) = matrix(row, column);
-  }
-  return result;
-}
-
-CMatrixDouble33 fromEigen(const Eigen::Matrix3d& matrix) {
-  CMatrixDouble33 result;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) result(row, column) = matrix(row, column);
-  }
-  return result;
-}
 
 /// Of the composed pose a + b by a: where b lies turns with a's heading.
 Eigen::Matrix3d byFirst(const TPose2D& a, const TPose2D& b) {

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/matrices.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/localization/scan/PoseRefiner.h>
 
@@ -145,11 +146,7 @@ RefinedPose PoseRefiner::refine(const mrpt::math::TPose2D& start, int max_iterat
       turn * equations.matrix * turn.transpose() / (params_.sigma * params_.sigma);
   RefinedPose refined{pose, {}, equations.beams};
   refined.pose_map_beams.normalizePhi();
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      refined.information(row, column) = information(row, column);
-    }
-  }
+  refined.information = fromEigen(information);
   return refined;
 }
 
