@@ -1,6 +1,7 @@
 #include "posed_scans.h"
 
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/evaluation/truth.h>
 #include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/carmen_line.h>
@@ -76,12 +77,10 @@ void requireDrive(const PosedScans& drive, const std::string& path, double most_
                                    drive.poses[i].y - drive.poses[i - 1].y);
     way += step;
     if (step > most_jump) {
-      char text[200];
-      std::snprintf(text, sizeof text,
-                    "a jump of %.2f m from the scan before: not one drive, or poses that are not "
-                    "corrected (--max-jump M allows more)",
-                    step);
-      throw FormatError(path, "scan " + std::to_string(i), text);
+      throw FormatError(path, "scan " + std::to_string(i),
+                        formatted("a jump of %.2f m from the scan before: not one drive, or poses "
+                                  "that are not corrected (--max-jump M allows more)",
+                                  step));
     }
   }
   if (way == 0.0) throw FormatError(path, "", "its poses never move: it has none, or no drive");

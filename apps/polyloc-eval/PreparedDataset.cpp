@@ -7,6 +7,7 @@
 #include <mrpt_polyloc/evaluation/baselines/rasterize.h>
 #include <mrpt_polyloc/io/bitmap_files.h>
 #include <mrpt_polyloc/io/observation.h>
+#include <mrpt_polyloc/io/result_json.h>
 #include <mrpt_polyloc/io/wkt.h>
 
 #include <cmath>
@@ -57,9 +58,7 @@ std::string hashOf(const EvaluationInputs& inputs) {
   if (inputs.good) {
     for (const std::size_t row : *inputs.good) add(static_cast<double>(row));
   }
-  char text[20];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum.value()));
-  return text;
+  return hashText(sum.value());
 }
 
 /// Centimetres from the box's corner, x and y in turn.

@@ -8,6 +8,7 @@
 #include <mrpt_polyloc/base/Checksum.h>
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/result_json.h>
 #include <mrpt_polyloc/version.h>
 
 #include <algorithm>
@@ -151,13 +152,11 @@ void openRun(const ListRunOptions& options, const ordered_json& run) {
 
 ordered_json identityOf(const DatasetEntry& entry, const MethodEntry& method,
                         const PreparedDataset& dataset) {
-  char hash[20];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(dataset.map.hash()));
   ordered_json identity;
   identity["dataset"] = entry.name;
   identity["method"] = method.name;
   identity["version"] = kVersion;
-  identity["map_hash"] = hash;
+  identity["map_hash"] = hashText(dataset.map.hash());
   identity["inputs_hash"] = dataset.inputs_hash;
   identity["options"] = method.arguments;
   identity["kind"] = method.method;

@@ -1,15 +1,14 @@
 #include "text_summary.h"
 
-#include <cstdio>
+#include <mrpt_polyloc/base/number_text.h>
+
 #include <functional>
 
 namespace mrpt_polyloc::apps {
 namespace {
 
 std::string fixed(double value, int decimals, const char* unit) {
-  char text[60];
-  std::snprintf(text, sizeof text, "%.*f%s", decimals, value, unit);
-  return text;
+  return formatted("%.*f%s", decimals, value, unit);
 }
 
 std::string percent(double share) {
@@ -31,10 +30,7 @@ std::string textSummary(const Summary& all, const std::optional<Summary>& good,
                         const IndexFigures& index) {
   std::string table;
   const auto row = [&](const char* name, const std::function<std::string(const Summary&)>& cell) {
-    char line[160];
-    std::snprintf(line, sizeof line, "%-16s%14s%14s", name, cell(all).c_str(),
-                  good ? cell(*good).c_str() : "");
-    table += line;
+    table += formatted("%-16s%14s%14s", name, cell(all).c_str(), good ? cell(*good).c_str() : "");
     table.erase(table.find_last_not_of(' ') + 1);
     table += '\n';
   };

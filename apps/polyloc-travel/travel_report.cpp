@@ -1,6 +1,7 @@
 #include "travel_report.h"
 
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/evaluation/Summary.h>
 
 #include <algorithm>
@@ -21,9 +22,7 @@ ordered_json percentiles(const std::vector<double>& values, bool with_max = true
 
 std::string number(double value, int decimals) {
   if (!std::isfinite(value)) return {};
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
+  return formatted("%.*f", decimals, value);
 }
 
 std::size_t countOf(const std::vector<TravelRecord>& records, TravelOutcome outcome) {

@@ -1,0 +1,76 @@
+#include "EvaluationRun.h"
+
+#include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/evaluation/stretches.h>
+
+#include <fstream>
+#include <numeric>
+#include <utility>
+
+namespace mrpt_polyloc::apps {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json readJson(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FormatError(path, "", "cannot be read");
+  try {
+    return ordered_json::parse(in);
+  } catch (const std::exception& error) {
+    throw FormatError(path, "", std::string("is damaged: ") + error.what());
+  }
+}
+
+EvaluationJob readJob(const std::string& path) {
+  auto job = JobFile(path).read();
+  if (!job) throw FormatError(path, "", "is missing or empty: a share of the run is not there");
+  const auto rows = job->identity.at("rows").get<std::size_t>();
+  if (job->scans.size() != rows) {
+    throw FormatError(path, "",
+                      "holds " + std::to_string(job->scans.size()) + " of " + std::to_string(rows) +
+                          " scans: a share of the run is not there or not done");
+  }
+  return *std::move(job);
+}
+
+}  // namespace
+
+EvaluationRun readRun(const std::string& folder) {
+  EvaluationRun run;
+  const ordered_json entry = readJson(runPath(folder));
+  for (const auto& method : entry.at("methods")) run.methods.push_back({method.at("name"), method});
+  for (const auto& name : entry.at("datasets")) {
+    EvaluatedDataset dataset{name, readJson(mapPath(folder, name)), {}};
+    std::vector<EvaluationJob> jobs;
+    for (const EvaluatedMethod& method : run.methods) {
+      jobs.push_back(readJob(jobPath(folder, dataset.name, method.name)));
+    }
+    std::vector<mrpt::math::TPose2D> drive;
+    for (const auto& scan : jobs.front().scans) drive.push_back(scan.second.record.truth);
+    dataset.stretch = stretchesOf(drive);
+    if (dataset.description.at("simulated")) {  // no drive: each scan is by itself
+      std::iota(dataset.stretch.begin(), dataset.stretch.end(), std::size_t{0});
+    }
+    run.datasets.push_back(std::move(dataset));
+    run.jobs.push_back(std::move(jobs));
+  }
+  return run;
+}
+
+bool isRefused(LocalizationStatus status) {
+  return status == LocalizationStatus::no_match || status == LocalizationStatus::too_few_beams;
+}
+
+const char* whyMissed(const EvaluatedScan& scan) {
+  constexpr double kWithinNoise = 2.0;  // standard errors
+  if (scan.isRight()) return "";
+  if (isRefused(scan.record.score.status)) return "refused";
+  if (scan.traits.outside > 0.0) return "outside_free_space";
+  if (scan.right) {
+    return scan.right->z_score < kWithinNoise ? "rival_within_noise" : "behind_others";
+  }
+  return "not_in_list";
+}
+
+}  // namespace mrpt_polyloc::apps
