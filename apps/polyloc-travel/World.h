@@ -41,12 +41,8 @@ class World {
   const std::vector<Polyline>& boxes() const { return boxes_; }
 
  private:
-  void occlude(std::vector<double>& ranges, Random& random) const;
-
   PolygonMap map_;
   SimulatorParams laser_;
-  double robot_radius_;
-  std::vector<double> bearings_;
   std::vector<Polyline> boxes_;
   WallSegments walls_;
 };

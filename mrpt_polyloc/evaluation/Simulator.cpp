@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace mrpt_polyloc {
 namespace {
@@ -61,7 +62,8 @@ void occlude(std::vector<double>& ranges, const SimulatorParams& params, Random&
     for (std::size_t i = 1; i < bearings.size(); ++i) {
       if (apart(i) < apart(nearest)) nearest = i;
     }
-    const double object = fraction * std::min(clear[nearest], params.max_range);
+    const double object =
+        std::max(fraction * std::min(clear[nearest], params.max_range), params.nearest_occluder);
     for (std::size_t i = 0; i < bearings.size(); ++i) {
       if (apart(i) <= half_width) ranges[i] = std::min(ranges[i], object);
     }
@@ -99,13 +101,10 @@ mrpt::obs::CObservation2DRangeScan emptyObservation(const SimulatorParams& param
   return observation;
 }
 
-mrpt::obs::CObservation2DRangeScan observe(const WallSegments& walls, const SimulatorParams& params,
-                                           const mrpt::math::TPose2D& pose, double stamp,
+/// What the sensor makes of what stands where, occluders put in between.
+mrpt::obs::CObservation2DRangeScan observe(std::vector<double> ranges,
+                                           const SimulatorParams& params, double stamp,
                                            Random& noise) {
-  std::vector<double> ranges;
-  for (const double bearing : bearingsOf(params)) {
-    ranges.push_back(walls.range({pose.x, pose.y}, pose.phi + bearing));
-  }
   occlude(ranges, params, noise);
   mrpt::obs::CObservation2DRangeScan observation = emptyObservation(params, stamp);
   fillRanges(observation, ranges, params, noise);
@@ -130,6 +129,8 @@ void SimulatorParams::check() const {
   require(is_share(short_beams), "short_beams must be in [0, 1]");
   require(std::isfinite(clearance) && clearance >= 0.0,
           "clearance must be finite and not negative");
+  require(std::isfinite(nearest_occluder) && nearest_occluder >= 0.0,
+          "nearest_occluder must be finite and not negative");
   world.check();
 }
 
@@ -142,10 +143,19 @@ mrpt::obs::CObservation2DRangeScan simulateScan(const ChangedWorld& world,
   for (const double bearing : bearingsOf(params)) {
     ranges.push_back(world.range({eye.x, eye.y}, eye.phi + bearing, params.clearance));
   }
-  occlude(ranges, params, noise);
-  mrpt::obs::CObservation2DRangeScan observation = emptyObservation(params, stamp);
-  fillRanges(observation, ranges, params, noise);
-  return observation;
+  return observe(std::move(ranges), params, stamp, noise);
+}
+
+mrpt::obs::CObservation2DRangeScan simulateScan(const WallSegments& walls,
+                                                const SimulatorParams& params,
+                                                const mrpt::math::TPose2D& pose_map_laser,
+                                                double stamp, Random& noise) {
+  std::vector<double> ranges;
+  for (const double bearing : bearingsOf(params)) {
+    ranges.push_back(
+        walls.range({pose_map_laser.x, pose_map_laser.y}, pose_map_laser.phi + bearing));
+  }
+  return observe(std::move(ranges), params, stamp, noise);
 }
 
 mrpt::obs::CObservation2DRangeScan simulateScan(const WallSegments& walls,
@@ -154,7 +164,7 @@ mrpt::obs::CObservation2DRangeScan simulateScan(const WallSegments& walls,
                                                 std::uint64_t seed) {
   params.check();
   Random noise(seed);
-  return observe(walls, params, pose_map_robot, kFirstStamp, noise);
+  return simulateScan(walls, params, pose_map_robot, kFirstStamp, noise);
 }
 
 std::vector<SimulatedScan> simulateScans(const PolygonMap& map, const SimulatorParams& params,

@@ -27,6 +27,7 @@ struct POLYLOC_EXPORT SimulatorParams {
   /// Objects in front of the robot: each covers a contiguous sector of 8 to 19 degrees anywhere in
   /// the field of view, at 20 to 90 % of the range of the sector's middle.
   std::size_t occluders = 0;
+  double nearest_occluder = 0.0;  ///< they stand no nearer than this [m]: not in the robot
   double clearance = 0.3;  ///< least distance of the robot's centre to a wall [m]: a small robot's
   /// In what the world that is seen differs from the map, in which truths are told. Drawn from the
   /// seed as well, without altering poses.
@@ -58,6 +59,11 @@ POLYLOC_EXPORT mrpt::obs::CObservation2DRangeScan simulateScan(
 POLYLOC_EXPORT std::vector<SimulatedScan> simulateScans(const PolygonMap& map,
                                                         const SimulatorParams& params,
                                                         std::size_t count, std::uint64_t seed);
+
+/// The same with noise that goes on from scan to scan; parameters are not checked.
+POLYLOC_EXPORT mrpt::obs::CObservation2DRangeScan simulateScan(
+    const WallSegments& walls, const SimulatorParams& params,
+    const mrpt::math::TPose2D& pose_map_laser, double stamp, Random& noise);
 
 /// What the laser sees from a pose of it in the map, the clearance being the robot's.
 POLYLOC_EXPORT mrpt::obs::CObservation2DRangeScan simulateScan(
