@@ -72,14 +72,16 @@ TEST_F(PolylocReplay, ScalesTheMapOfTheSearchAndRefusesOneThatDoesNotFit) {
   writeActionLog(path("drive.rawlog"), drive_);
   write("truth.tum", tumTruth(drive_));
   const std::vector<std::string> judged = {"--truth", path("truth.tum"), "--scale"};
-  const auto successes = [&](const char* scale) {
+  // From the first scan on, for the search finds it.
+  const auto finds = [&](const char* scale) {
     std::vector<std::string> arguments = judged;
     arguments.emplace_back(scale);
     const Outcome outcome = replay(arguments);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    return summary()["success"].get<int>();
+    return summary()["success"] == 1 && summary()["median_step"] == 0.0;
   };
-  EXPECT_EQ(successes("0.5"), 1);
+  EXPECT_TRUE(finds("0.5"));
+  EXPECT_FALSE(finds("1"));  // the filter may come to it in time
   ini("map=halves.wkt\nscale=0.5 # m\nparticles=100\n");
   EXPECT_EQ(replay({"--truth", path("truth.tum")}).code, 0);
   EXPECT_EQ(summary()["success"], 1);

@@ -138,12 +138,14 @@ INSTANTIATE_TEST_SUITE_P(
         localize("fov_too_large", {"--laser-fov", "361"}, "'361' is not"),
         localize("no_hypotheses", {"--max-hypotheses", "0"}, "--max-hypotheses: '0'"),
         localize("no_threads", {"--threads", "0"}, "--threads: '0'"),
-        localize("threads_fraction", {"--threads", "1.5"}, "--threads: '1.5'")),
+        localize("threads_fraction", {"--threads", "1.5"}, "--threads: '1.5'"),
+        localize("maps_index", {"--map", "b.wkt", "--index", "a.idx"}, "are of one map")),
     [](const auto& tested) { return tested.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Eval, UsageErrors,
     testing::Values(evaluate("eval_method", {"--method", "best"}, "unknown method"),
+                    evaluate("eval_map_twice", {"--map", "b.wkt"}, "--map"),
                     evaluate("eval_tolerance_one", {"--tolerance", "0.3"}, "'0.3' is not M,DEG"),
                     evaluate("eval_tolerance_zero", {"--tolerance", "0,5"}, "'0,5' is not M,DEG"),
                     evaluate("eval_tolerance_turn", {"--tolerance", "1,181"}, "'1,181' is not"),

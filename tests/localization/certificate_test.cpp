@@ -352,6 +352,42 @@ TEST(Certificate, HoldsBeyondTheGreatestRange) {
                           [&](const PoseRegion& region) { return holds(region, truth); }));
 }
 
+TEST(Certificate, HoldsWithANearHorizon) {
+  // Walls behind open edges that are known from some points of a leaf and not from others.
+  std::mt19937 random(11);
+  Attempt all;
+  std::size_t beyond = 0;
+  for (std::uint32_t seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE("map " + std::to_string(seed));
+    const PolygonMap map = floorPlan(randomParams(random), seed);
+    if (map.openPerimeter() < 2.0) continue;
+    MapIndexParams params;
+    params.horizon = seed % 2 == 0 ? 0.5 : 2.0;
+    const GlobalLocalizer localizer(MapIndex::build(map, params));
+    const BruteForceRays near(map, params.horizon), far(map);
+    for (const ScanOptions& options : kindsOfScans(seed)) {
+      const TPoint2D place = randomFreePoints(map, 1, random).front();
+      const TPose2D truth{place.x, place.y, std::uniform_real_distribution<>(-kPi, kPi)(random)};
+      for (int k = 0; k < 90; ++k) {
+        beyond += near.cast(place, 0.07 * k).wall > far.cast(place, 0.07 * k).wall ? 1 : 0;
+      }
+      const RangeScan scan = simulatedScan(map, truth, options);
+      const LocalizationResult result = localizer.localize(scan, {}, withRegions());
+      if (result.status == LocalizationStatus::too_few_beams) continue;
+      ASSERT_TRUE(result.certificate);
+      const BruteForceCost cost(map, scan, SearchMetric::robust, params.horizon);
+      Adversary adversary(map, result, cost, random);
+      adversary.search(300, 6, 60);
+      adversary.climb(scan.beamFrameFromRobot(truth), 60);
+      EXPECT_EQ(adversary.tally.outside, 0U)
+          << "of " << adversary.tally.below << ", by " << adversary.tally.worst << " m";
+      all.below += adversary.tally.below;
+    }
+  }
+  EXPECT_GT(all.below, 300U);
+  EXPECT_GE(beyond, 50U);  // beams that the horizon ends
+}
+
 TEST(Certificate, SaysHowFarABudgetReached) {
   const PolygonMap map = floorPlan(largeFloor(), 4);
   std::mt19937 random(9);

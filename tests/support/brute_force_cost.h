@@ -15,8 +15,8 @@ namespace mrpt_polyloc::test {
 class BruteForceCost {
  public:
   BruteForceCost(const PolygonMap& map, const RangeScan& scan,
-                 SearchMetric metric = SearchMetric::robust)
-      : rays_(map),
+                 SearchMetric metric = SearchMetric::robust, double horizon = 20.0)
+      : rays_(map, horizon),
         beams_(BandQuery(scan, GlobalLocalizerParams{}.search_cost, metric).beams),
         cost_(GlobalLocalizerParams{}.search_cost),
         metric_(metric) {}

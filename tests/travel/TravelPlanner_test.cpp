@@ -52,9 +52,12 @@ TEST(TravelPlanner, GoesWhereTheScanDiffers) {
     // The niche is seen from some 13.5 m on, by the robot or by its rival.
     EXPECT_GT(plan.distance, 2.0);
     EXPECT_LT(plan.distance, 6.0);
-    EXPECT_NEAR(plan.value, 1.0, 0.15);  // nearest goes no farther than is enough
+    // All of it, but the nearest place only as much as counts as told apart.
+    const double least = strategy == TravelStrategy::nearest ? 0.9 : 0.95;
+    EXPECT_GE(plan.value, least);
+    EXPECT_LE(plan.value, 1.0 + 1e-9);
     ASSERT_EQ(plan.falls.size(), 2u);
-    EXPECT_NEAR(plan.falls[0], 0.5, 0.08);
+    EXPECT_NEAR(plan.falls[0], 0.5 * plan.value, 0.02);
     // By rays: what both expect at the goal differs.
     int different = 0;
     for (int k = 0; k < 360; ++k) {

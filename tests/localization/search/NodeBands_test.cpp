@@ -103,5 +103,23 @@ TEST(NodeBands, OfACellTakeTheWiderGap) {
   EXPECT_TRUE(bands[0].may_be_open);
 }
 
+TEST(NodeBands, OfALeafForgetWallsThatMayLieBeyondTheHorizon) {
+  RangeBands ranges;
+  ranges.wall_low.fill(4.0F);
+  ranges.wall_high.fill(9.0F);
+  ranges.gap_low.fill(0.0F);
+  ranges.gap_high.fill(0.0F);
+  ranges.open_low.fill(1.0F);
+  ranges.open_high.fill(1.5F);
+  ranges.open_low[3] = 20.0F;  // behind the wall
+  NodeBands bands;
+  bandsOfLeaf(ranges, 8.1, bands);
+  EXPECT_EQ(bands[0].wall_high, 9.0F);
+  bandsOfLeaf(ranges, 7.9, bands);
+  EXPECT_TRUE(std::isinf(bands[0].wall_high));
+  EXPECT_EQ(bands[0].near_low, 1.0F);
+  EXPECT_EQ(bands[3].wall_high, 9.0F);
+}
+
 }  // namespace
 }  // namespace mrpt_polyloc::test
