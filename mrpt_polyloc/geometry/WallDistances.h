@@ -9,8 +9,7 @@
 namespace mrpt_polyloc {
 
 /// How far points lie from the nearest wall of any kind, walls beyond included, up to a reach: a
-/// grid of distances near walls, interpolated. For exact distances see NearestWalls, which takes a
-/// hundred times as long.
+/// grid of distances near walls, interpolated. NearestWalls is exact, and searches a tree.
 ///
 /// Immutable and thread-safe. Within 0.071 m of the truth (half a cell's diagonal), mostly much
 /// nearer. Memory and time of building follow the walls' length.

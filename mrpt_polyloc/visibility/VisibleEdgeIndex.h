@@ -12,7 +12,7 @@
 
 namespace mrpt_polyloc {
 
-/// For every square square of a grid over the free space, the edges that may be seen from some
+/// For every square of a grid over the free space, the edges that may be seen from some
 /// point of it: a superset, so that a depth buffer over the list gives the exact view. Lists are
 /// runs of BoundaryChains. Built on several threads with one result.
 ///
@@ -31,7 +31,7 @@ class VisibleEdgeIndex {
   };
 
   /// The default horizon [m]: nothing is lost by it on real maps with their many holes, where one
-  /// of 10 m loses some poses (doc/performance.md).
+  /// of 10 m loses some poses (doc/localization.md).
   static constexpr double kHorizon = 20.0;
 
   /// \param square_size side of the squares [m], > 0 \param threads 0: all cores
