@@ -1,6 +1,7 @@
 // Polar coordinate metric: ns per pair of views and per merged interval.
 
 #include "tests/support/certified_rotation.h"
+#include "tests/support/exact_polar_metric.h"
 #include "tests/support/feature_distance.h"
 #include <mrpt_polyloc/polar/FourierBound.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>

@@ -19,7 +19,7 @@ fi
 # shellcheck disable=SC2086
 exec awk '
 BEGIN {
-  count = split("base geometry visibility polar polar/exact localization/scan localization/exact " \
+  count = split("base geometry visibility polar localization/scan localization/exact " \
                 "localization/nearest_cells localization/search localization/ranking " \
                 "localization travel io mrpt_bridge evaluation " \
                 "evaluation/baselines", order)

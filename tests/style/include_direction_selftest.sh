@@ -26,7 +26,6 @@ expect mrpt_polyloc/geometry/a.h '#include <mrpt_polyloc/polar/b.h>' 'geometry m
 expect mrpt_polyloc/polar/a.cpp '  # include <mrpt_polyloc/localization/b.h>' 'polar must not know'
 expect mrpt_polyloc/mrpt_bridge/a.h '#include <mrpt_polyloc/evaluation/b.h>' 'must not know evaluation'
 expect mrpt_polyloc/polar/a.h '#include <mrpt_polyloc/helpers/b.h>' 'unknown folder helpers'
-expect mrpt_polyloc/polar/a.h '#include <mrpt_polyloc/polar/exact/b.h>' 'polar must not know polar/exact'
 expect mrpt_polyloc/localization/search/a.h '#include <mrpt_polyloc/localization/b.h>' \
   'localization/search must not know localization'
 expect mrpt_polyloc/localization/search/a.h '#include <mrpt_polyloc/localization/ranking/b.h>' \

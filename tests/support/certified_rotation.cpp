@@ -2,6 +2,7 @@
 
 #include "certified_rotation.h"
 
+#include "exact_polar_metric.h"
 #include <mrpt_polyloc/base/params_check.h>
 
 #include <algorithm>

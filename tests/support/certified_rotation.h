@@ -2,7 +2,6 @@
 
 #include <mrpt_polyloc/polar/PolarFunction.h>
 #include <mrpt_polyloc/polar/RotationRange.h>
-#include <mrpt_polyloc/polar/exact/ExactPolarMetric.h>
 
 #include <cstddef>
 #include <vector>

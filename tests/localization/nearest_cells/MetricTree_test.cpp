@@ -1,6 +1,5 @@
 #include <mrpt_polyloc/localization/nearest_cells/MetricTree.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
-#include <mrpt_polyloc/polar/exact/ExactPolarMetric.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 
 #include <mrpt_polyloc/polar/PolarFunction.h>
 
+/// What the sampled metric is held against. No program needs it, so it is not in the library.
 namespace mrpt_polyloc {
 
 /// The polar coordinate metric as an integral, with a compass:

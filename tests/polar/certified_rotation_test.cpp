@@ -1,5 +1,6 @@
 #include "tests/support/certified_rotation.h"
 
+#include "tests/support/exact_polar_metric.h"
 #include "tests/support/feature_distance.h"
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/polar/FourierBound.h>

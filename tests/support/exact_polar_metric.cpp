@@ -1,9 +1,9 @@
+#include "exact_polar_metric.h"
+
 #include <mrpt_polyloc/base/angles.h>
-#include <mrpt_polyloc/base/cpu_dispatch.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/base/vectors.h>
-#include <mrpt_polyloc/polar/exact/ExactPolarMetric.h>
 
 #include <algorithm>
 #include <array>
@@ -20,14 +20,7 @@ using mrpt::math::TPoint2D;
 using Piece = PolarFunction::Piece;
 using PieceKind = PolarFunction::PieceKind;
 
-// What the walk below calls must be compiled for its machine along with it.
-#if defined(__GNUC__)
-#define POLYLOC_INLINE inline __attribute__((always_inline))
-#else
-#define POLYLOC_INLINE inline
-#endif
-
-POLYLOC_INLINE TPoint2D rotated(const TPoint2D& v, const TPoint2D& rotation) {
+inline TPoint2D rotated(const TPoint2D& v, const TPoint2D& rotation) {
   return {rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y};
 }
 
@@ -38,13 +31,13 @@ struct Interval {
 };
 
 /// sin(x) for 0 <= x <= pi / 2, quickly where scans of many beams need it.
-POLYLOC_INLINE double sine(double x) {
+inline double sine(double x) {
   const double q = x * x;
   if (q > 0.01) return std::sin(x);
   return x + x * q * ((-1.0 / 6 + q * (1.0 / 120)) + q * q * (-1.0 / 5040 + q * (1.0 / 362880)));
 }
 
-POLYLOC_INLINE double cosineTo(const Piece& wall, const TPoint2D& direction) {
+inline double cosineTo(const Piece& wall, const TPoint2D& direction) {
   return std::max(dot(wall.normal, direction), wall.least_cosine);
 }
 
@@ -54,7 +47,7 @@ constexpr double kPolynomialSquare = 0.25;
 
 /// Sum of c_i q^i, in pairs: a short chain of operations.
 template <std::size_t N>
-POLYLOC_INLINE double polynomial(const std::array<double, N>& c, double q) {
+inline double polynomial(const std::array<double, N>& c, double q) {
   const double q2 = q * q, q4 = q2 * q2;
   const auto four = [&](std::size_t i) {
     return (c[i] + q * c[i + 1]) + q2 * (c[i + 2] + q * c[i + 3]);
@@ -76,12 +69,12 @@ constexpr std::array<double, 13> kShareRest = {
     5.6713866479912722};
 
 /// (artanh(x) / x - 1) / x^2 = 1/3 + x^2/5 + x^4/7 + ... for x^2 <= kPolynomialSquare.
-POLYLOC_INLINE double artanhRest(double square) {
+inline double artanhRest(double square) {
   return polynomial(kArtanhRest, square);
 }
 
 /// 1 / (1 - x^2) - 2 artanhRest(x^2) = 1/3 + 3 x^2/5 + 5 x^4/7 + ...
-POLYLOC_INLINE double shareRest(double square) {
+inline double shareRest(double square) {
   return polynomial(kShareRest, square);
 }
 
@@ -98,7 +91,7 @@ class WallPairs {
 
   bool isFull() const { return count_ == kMost; }
 
-  POLYLOC_INLINE void add(const Piece& f, const Piece& g, const TPoint2D& a, const TPoint2D& b) {
+  inline void add(const Piece& f, const Piece& g, const TPoint2D& a, const TPoint2D& b) {
     const std::size_t i = count_++;
     a_x_[i] = a.x, a_y_[i] = a.y, b_x_[i] = b.x, b_y_[i] = b.y;
     f_x_[i] = f.normal.x, f_y_[i] = f.normal.y;
@@ -108,7 +101,7 @@ class WallPairs {
   }
 
   /// The sum of the integrals of (f - g)^2; there are no pairs then.
-  POLYLOC_INLINE double takeSum() {
+  inline double takeSum() {
     for (std::size_t i = 0; i < count_; ++i) prepare(i);
     for (std::size_t i = 0; i < count_; ++i) {
       const double q = square_[i];
@@ -134,7 +127,7 @@ class WallPairs {
   using Numbers = std::array<double, kMost>;
 
   /// What the integral of pair i is computed from, without a branch.
-  POLYLOC_INLINE void prepare(std::size_t i) {
+  inline void prepare(std::size_t i) {
     const auto cosine = [](double n_x, double n_y, double x, double y, double least) {
       const double value = n_x * x + n_y * y;
       return value > least ? value : least;
@@ -173,8 +166,7 @@ class WallPairs {
     square_[i] = x * x;
   }
 
-  POLYLOC_INLINE double integral(std::size_t i, double square, double rest,
-                                 double share_rest) const {
+  inline double integral(std::size_t i, double square, double rest, double share_rest) const {
     return length_[i] *
            (difference_[i] * difference_[i] +
             f_middle_[i] * square * (2.0 * difference_[i] * rest + f_middle_[i] * share_rest));
@@ -188,7 +180,7 @@ class WallPairs {
 };
 
 /// Integral of (f - radius)^2 for a wall and an arc.
-POLYLOC_INLINE double wallAgainstArc(const Piece& wall, double radius, const Interval& interval) {
+inline double wallAgainstArc(const Piece& wall, double radius, const Interval& interval) {
   const double cos_a = cosineTo(wall, interval.a), cos_b = cosineTo(wall, interval.b);
   const double sin_a = cross(wall.normal, interval.a), sin_b = cross(wall.normal, interval.b);
   // From the width, not from the vectors: the errors of neighbours must cancel, for here the small
@@ -214,7 +206,7 @@ POLYLOC_INLINE double wallAgainstArc(const Piece& wall, double radius, const Int
 }
 
 /// Integral of (f - g)^2 where one at least is an arc.
-POLYLOC_INLINE double squaredDifference(const Piece& f, const Piece& g, const Interval& interval) {
+inline double squaredDifference(const Piece& f, const Piece& g, const Interval& interval) {
   if (f.kind == PieceKind::wall) return wallAgainstArc(f, g.distance, interval);
   if (g.kind == PieceKind::wall) return wallAgainstArc(g, f.distance, interval);
   const double difference = f.distance - g.distance;
@@ -253,7 +245,6 @@ const std::vector<Piece>& turnedPieces(const PolarFunction& f, double turn) {
 }
 
 /// Walks along the pieces of g and of f turned, from one breakpoint of either to the next.
-POLYLOC_HOT_LOOP
 SquaredDistance squaredDistance(const PolarFunction& f_function, const PolarFunction& g_function,
                                 double rotation) {
   const Piece* f = turnedPieces(f_function, wrapToTwoPi(rotation)).data();

@@ -1,8 +1,9 @@
+#include "tests/support/exact_polar_metric.h"
+
 #include "tests/support/feature_distance.h"
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/polar/FourierBound.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
-#include <mrpt_polyloc/polar/exact/ExactPolarMetric.h>
 
 #include <gtest/gtest.h>
 
