@@ -62,6 +62,10 @@ void checkTogether(const SearchOptions& search) {
   if (search.method == "exact" && !search.calibration_file.empty()) {
     throw UsageError("--calibration is of scans with noise: it does not go with --method exact");
   }
+  if (search.method == "exact" && (search.max_lost || search.cell_size > 0.0)) {
+    throw UsageError(
+        "--max-lost and --cell-size are of scans with noise: they do not go with --method exact");
+  }
   if (search.method == "certified") return;
   if (!search.index.empty()) throw UsageError("--index needs --method certified");
   if (search.time_budget_ms > 0.0) throw UsageError("--time-budget needs --method certified");
@@ -86,9 +90,15 @@ MapIndex::Ptr makeIndex(PolygonMap map, const std::string& file, const MapIndexP
   return index;
 }
 
-Calibration calibrationOf(const SearchOptions& search) {
-  return search.calibration_file.empty() ? search.calibration
-                                         : loadCalibration(search.calibration_file);
+HypothesisParams hypothesesOf(const SearchOptions& search) {
+  HypothesisParams params;
+  params.calibration = search.calibration_file.empty() ? search.calibration
+                                                       : loadCalibration(search.calibration_file);
+  if (search.max_lost) {
+    params.calibration.least_match_probability = params.calibration.thresholdFor(*search.max_lost);
+  }
+  params.cell_size = search.cell_size;
+  return params;
 }
 
 mrpt_polyloc::SearchOptions optionsOf(const SearchOptions& search) {
@@ -115,7 +125,7 @@ ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
   MapIndexParams index_params;
   index_params.threads = static_cast<int>(search.threads);
   GlobalLocalizerParams params;
-  params.hypotheses.calibration = calibrationOf(search);
+  params.hypotheses = hypothesesOf(search);
   requireMemory(search.map, map, index_params, search.max_memory);
   const MapIndex::Ptr index = makeIndex(std::move(map), search.index, index_params);
   const auto held = std::make_shared<const GlobalLocalizer>(index, params);
@@ -134,7 +144,7 @@ ScanLocalizer makeCells(PolygonMap map, const SearchOptions& search) {
   params.threads = static_cast<int>(search.threads);
   params.range = search.cell_range;
   if (search.nearest == kTree) params.nearest = NearestViews::tree;
-  params.hypotheses.calibration = calibrationOf(search);
+  params.hypotheses = hypothesesOf(search);
   CellLocalizer localizer(MapIndex::deferred(std::move(map), index_params), params);
   const std::size_t bytes = localizer.indexBytes();
   return shared(std::move(localizer), search, bytes);
@@ -236,6 +246,15 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
   addText(options, "--calibration", search.calibration_file,
           "What costs mean for this sensor, from polyloc-calibrate [default: built in]")
       ->type_name("FILE.json");
+  addNumber(
+      options, "--max-lost", [&search](double share) { search.max_lost = share; }, {0.0, 1.0},
+      "Share of the scans taken in the map that may be refused: more refuse more of other "
+      "buildings [default: the calibration's own]")
+      ->type_name("SHARE");
+  addNumber(options, "--cell-size", search.cell_size, {0.0, 100.0, true},
+            "Side of the grid cells that the map was made from: walls are known no better "
+            "[default: what the map says; 0 if it was drawn]")
+      ->type_name("M");
 }
 
 void addCertifiedOptions(CLI::App& options, SearchOptions& search) {
@@ -272,7 +291,7 @@ MultiMapSearch makeMultiMapSearch(std::vector<PolygonMap> maps, const SearchOpti
     MapIndexParams index_params;
     index_params.threads = static_cast<int>(search.threads);
     GlobalLocalizerParams params;
-    params.hypotheses.calibration = calibrationOf(search);
+    params.hypotheses = hypothesesOf(search);
     localizers.emplace_back(MapIndex::build(std::move(map), index_params), params);
   }
   const auto held = std::make_shared<const MultiMapLocalizer>(std::move(localizers));

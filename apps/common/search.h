@@ -39,11 +39,13 @@ struct SearchOptions {
   std::uint64_t threads = 0;
   std::string calibration_file;  ///< empty: `calibration` holds
   Calibration calibration;
+  std::optional<double> max_lost;  ///< share of true scans that may be refused
+  double cell_size = 0.0;          ///< of what the map was traced from [m]; 0: what the map says
 };
 
 /// Adds --map, --scale, --max-memory, --scans, --max-range, --min-range, --strict, --method,
-/// --range, --nearest, --view-range, --max-hypotheses, --threads and --calibration. Those of one
-/// method alone are usage errors with another.
+/// --range, --nearest, --view-range, --max-hypotheses, --threads, --calibration, --max-lost and
+/// --cell-size. Those of one method alone are usage errors with another.
 void addSearchOptions(CLI::App& options, SearchOptions& search);
 
 /// What a method is to the programs: a map made ready, and one scan in, all poses out.

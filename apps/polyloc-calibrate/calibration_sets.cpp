@@ -19,6 +19,10 @@ std::vector<std::string> wordsOf(const std::string& line) {
   return words;
 }
 
+std::string buildingOf(const std::string& name) {
+  return name.substr(0, name.find('/'));
+}
+
 CalibrationSet loadSet(const Program& program, const std::vector<std::string>& words,
                        const std::filesystem::path& folder, const ScanFileOptions& file) {
   const auto resolve = [&](const std::string& name) { return (folder / name).string(); };
@@ -61,9 +65,16 @@ std::vector<CalibrationSet> loadCalibrationSets(const Program& program, const st
                     [&](const CalibrationSet& set) { return set.name == words[0]; })) {
       throw FormatError(path, place, "the name " + words[0] + " is taken");
     }
+    const auto same = std::find_if(sets.begin(), sets.end(), [&](const CalibrationSet& set) {
+      return buildingOf(set.name) == buildingOf(words[0]);
+    });
+    const auto building = static_cast<std::size_t>(same - sets.begin());
     sets.push_back(loadSet(program, words, folder, file_options));
+    sets.back().building = building;
+    sets.back().is_form = words[0].find('/') != std::string::npos;
   }
-  if (sets.size() < 2) {
+  if (std::count_if(sets.begin(), sets.end(),
+                    [](const CalibrationSet& set) { return !set.is_form; }) < 2) {
     throw FormatError(path, "",
                       "holds fewer than two sets: there are no scans of another building");
   }

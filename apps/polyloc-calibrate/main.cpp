@@ -64,6 +64,9 @@ void addOptions(CLI::App& cli, Options& options) {
   addNumber(cli, "--unique-right", options.fit.unique_right, {0.0, 1.0},
             "Share of the unique answers that must be right [default: 0.995]")
       ->type_name("SHARE");
+  addNumber(cli, "--foreign-unique", options.fit.foreign_unique, {0.0, 1.0},
+            "Share of the scans of other buildings that may be called unique [default: 0.003]")
+      ->type_name("SHARE");
   addNumber(cli, "--clutter-weight", options.fit.clutter_weight, {0.0, 1e6, true},
             "A cluttered scan counts as so many own ones [default: 0.1]")
       ->type_name("WEIGHT");
@@ -78,9 +81,10 @@ std::vector<std::string> originOf(const Options& options, const std::vector<Cali
   std::vector<std::string> lines = {"polyloc-calibrate SETS --own " + std::to_string(options.own) +
                                     " --cluttered " + std::to_string(options.cluttered) +
                                     " --foreign " + std::to_string(options.foreign)};
-  lines.push_back(formatted("  --lost %g --unique-right %g --clutter-weight %g, on the sets",
-                            options.fit.lost, options.fit.unique_right,
+  lines.push_back(formatted("  --lost %g --unique-right %g --foreign-unique %g --clutter-weight %g",
+                            options.fit.lost, options.fit.unique_right, options.fit.foreign_unique,
                             options.fit.clutter_weight));
+  lines.push_back("on the sets");
   for (const CalibrationSet& set : sets) {
     lines.push_back("  " + set.name.substr(0, 60) + " (" + std::to_string(set.scans.size()) +
                     " scans)");
@@ -104,7 +108,11 @@ void printOutcome(const char* title, const CalibrationOutcome& outcome) {
             << "\n  at 3 % of the true lost  " << percent(pointAtLoss(outcome.roc, 0.03).refused)
             << "\n  foreign called unique    " << ofWhole(outcome.foreign_unique, outcome.foreign)
             << "\n  unique right             " << ofWhole(outcome.unique_right, outcome.unique)
-            << "\n  reliability\n";
+            << "\n  where so many true scans may be lost, foreign scans refused\n   ";
+  for (const double lost : Calibration::kLostShares) {
+    std::cout << formatted(" %g: %.1f %%", lost, 100.0 * pointAtLoss(outcome.roc, lost).refused);
+  }
+  std::cout << "\n  reliability\n";
   for (const ReliabilityBin& bin : outcome.reliability) {
     if (bin.count == 0) continue;
     std::cout << "    stated " << percent(bin.stated) << ", right " << percent(bin.true_share)

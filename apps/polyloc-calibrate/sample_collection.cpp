@@ -60,7 +60,8 @@ void collect(const ScanLocalizer& localizer, const CalibrationSet& set,
     sample->map = batch.map;
     sample->set = batch.set;
     sample->origin = batch.origin;
-    sample->good = set.good[scan.row];
+    sample->good = set.good[scan.row] && !set.is_form;
+    if (set.is_form) sample->position_square = sample->heading_square = std::nullopt;
     samples.push_back(std::move(*sample));
   }
 }
@@ -80,13 +81,16 @@ std::vector<CalibrationSample> collectSamples(const Program& program,
       const CalibrationSet& set = sets[i];
       const auto run = [&](ScanOrigin origin, std::vector<std::size_t> rows,
                            const std::vector<RangeScan>& scans) {
-        collect(localizer, set, scans, {map, i, origin, std::move(rows)}, search, samples);
+        collect(localizer, set, scans, {sets[map].building, set.building, origin, std::move(rows)},
+                search, samples);
       };
       if (i != map) {
+        if (set.is_form || sets[map].is_form || set.building == sets[map].building) continue;
         run(ScanOrigin::foreign, thinned(allRows(set), size.foreign), set.scans);
         continue;
       }
       run(ScanOrigin::own, thinned(allRows(set), size.own), set.scans);
+      if (set.is_form) continue;
       const std::vector<std::size_t> rows = thinned(goodRows(set), size.cluttered);
       run(ScanOrigin::cluttered, rows, clutteredScans(set, rows));
     }

@@ -64,8 +64,12 @@ void fitMatch(const Samples& samples, const CalibrationFitParams& params, Calibr
     if (isGood(sample)) probabilities.push_back(result.matchProbability(sample.features));
   }
   std::sort(probabilities.begin(), probabilities.end());
-  const auto lost = static_cast<std::size_t>(params.lost * own);
-  result.least_match_probability = probabilities[std::min(lost, probabilities.size() - 1)];
+  const auto losing = [&](double share) {
+    return probabilities[std::min(static_cast<std::size_t>(share * own), probabilities.size() - 1)];
+  };
+  result.least_match_probability = losing(params.lost);
+  std::transform(Calibration::kLostShares.begin(), Calibration::kLostShares.end(),
+                 result.lost_thresholds.begin(), losing);
 }
 
 double weightLoss(const Samples& samples, double decay) {
@@ -87,17 +91,40 @@ double fitDecay(const Samples& samples) {
           .first);
 }
 
-/// The least threshold on the probability of the first from which on the share is met; above 1 if
-/// there is none.
-double fitUnique(const Samples& samples, const Calibration& calibration, double share) {
+/// The probabilities that the first answers are right, of scans that are not refused.
+std::vector<Forecast> firstsOf(const Samples& samples, ScanOrigin origin,
+                               const Calibration& calibration) {
   std::vector<Forecast> firsts;
   for (const CalibrationSample& sample : samples) {
-    if (sample.origin != ScanOrigin::own) continue;
+    if (sample.origin != origin) continue;
     const double match = calibration.matchProbability(sample.features);
     if (match < calibration.least_match_probability) continue;
     const double first = sharesOf(sample, calibration.weight_decay).first;
     firsts.push_back({match * first, sample.candidates.front().right});
   }
+  return firsts;
+}
+
+/// What only the share of the foreign scans exceeds; 0 if fewer are not refused.
+double exceededBy(double share, const Samples& samples, const Calibration& calibration) {
+  const auto count = std::count_if(samples.begin(), samples.end(), [](const CalibrationSample& s) {
+    return s.origin == ScanOrigin::foreign;
+  });
+  std::vector<Forecast> foreign = firstsOf(samples, ScanOrigin::foreign, calibration);
+  const auto allowed = static_cast<std::size_t>(share * static_cast<double>(count));
+  if (allowed >= foreign.size()) return 0.0;
+  std::nth_element(
+      foreign.begin(), foreign.begin() + static_cast<std::ptrdiff_t>(allowed), foreign.end(),
+      [](const Forecast& a, const Forecast& b) { return a.probability > b.probability; });
+  return foreign[allowed].probability;
+}
+
+/// The least threshold on the probability of the first from which on both shares are met; above 1
+/// if there is none.
+double fitUnique(const Samples& samples, const Calibration& calibration,
+                 const CalibrationFitParams& params) {
+  std::vector<Forecast> firsts = firstsOf(samples, ScanOrigin::own, calibration);
+  const double foreign = exceededBy(params.foreign_unique, samples, calibration);
   std::sort(firsts.begin(), firsts.end(),
             [](const Forecast& a, const Forecast& b) { return a.probability > b.probability; });
   double threshold = 2.0, count = 0.0, right = 0.0;
@@ -105,7 +132,8 @@ double fitUnique(const Samples& samples, const Calibration& calibration, double 
     count += 1.0;
     right += firsts[i].came_true ? 1.0 : 0.0;
     const bool ties = i + 1 < firsts.size() && firsts[i + 1].probability == firsts[i].probability;
-    if (!ties && right >= share * count) threshold = firsts[i].probability;
+    if (firsts[i].probability <= foreign) break;
+    if (!ties && right >= params.unique_right * count) threshold = firsts[i].probability;
   }
   return threshold;
 }
@@ -130,6 +158,7 @@ void fitCovariance(const Samples& samples, Calibration& result) {
 void CalibrationFitParams::check() const {
   requireInRange("lost", lost, 0.0, 0.5);
   requireInRange("unique_right", unique_right, 0.0, 1.0);
+  requireInRange("foreign_unique", foreign_unique, 0.0, 1.0);
   requirePositive("clutter_weight", clutter_weight);
 }
 
@@ -147,7 +176,7 @@ Calibration fitCalibration(const Samples& samples, const CalibrationFitParams& p
   fitMatch(samples, params, result);
   fitCovariance(samples, result);
   result.weight_decay = fitDecay(samples);
-  result.unique_probability = fitUnique(samples, result, params.unique_right);
+  result.unique_probability = fitUnique(samples, result, params);
   return result;
 }
 

@@ -18,6 +18,8 @@ struct POLYLOC_EXPORT CalibrationFitParams {
   double lost = 0.005;
   /// Share of the answers called `unique` that must be right.
   double unique_right = 0.995;
+  /// Share of the scans of other buildings that may be called `unique`.
+  double foreign_unique = 0.003;
   /// A cluttered scan counts as so many own ones: they shall not decide what a usual scan is.
   double clutter_weight = 0.1;
 
@@ -29,10 +31,10 @@ struct POLYLOC_EXPORT CalibrationFitParams {
 ///  - the match score by logistic regression of good own (and, with less weight, cluttered) against
 ///    foreign scans, both classes weighing the same; its threshold from `lost`;
 ///  - the decay of the weights by the likelihood of the right hypotheses of own scans;
-///  - the threshold of `unique`, the least one from which on the own scans meet `unique_right`;
+///  - the threshold of `unique`, the least one from which on the own scans meet `unique_right` and
+///    the foreign ones `foreign_unique`;
 ///  - the factors of the covariance, such that the squared errors of right answers are on average
-///  as
-///    stated.
+///    as stated.
 /// \throws InvalidParamsError if there is no good own scan, no foreign one, or no own scan with a
 /// right answer
 POLYLOC_EXPORT Calibration fitCalibration(const std::vector<CalibrationSample>& samples,

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -43,6 +44,13 @@ std::string literal(double value) {
   return digits;
 }
 
+template <std::size_t N>
+std::string arrayLiteral(const char* name, const std::array<double, N>& values) {
+  std::string text = "constexpr std::array<double, " + std::to_string(N) + "> " + name + " = {";
+  for (std::size_t i = 0; i < N; ++i) text += (i == 0 ? "" : ", ") + literal(values[i]);
+  return text + "};\n";
+}
+
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -55,6 +63,7 @@ ordered_json calibrationJson(const Calibration& calibration) {
   for (std::size_t i = 0; i < MatchFeatures::kCount; ++i) {
     json["match_weights"][MatchFeatures::kNames[i]] = calibration.match_weights[i];
   }
+  json["lost_thresholds"] = calibration.lost_thresholds;
   return json;
 }
 
@@ -69,6 +78,16 @@ Calibration loadCalibration(const std::string& path) {
   for (std::size_t i = 0; i < MatchFeatures::kCount; ++i) {
     calibration.match_weights[i] = numberAt(json["match_weights"], MatchFeatures::kNames[i], path);
   }
+  const char* const thresholds = "lost_thresholds";
+  if (!json.contains(thresholds)) {
+    throw FormatError(path, thresholds, "is missing: fit it anew by polyloc-calibrate");
+  }
+  const bool is_list = json[thresholds].is_array() &&
+                       json[thresholds].size() == calibration.lost_thresholds.size() &&
+                       std::all_of(json[thresholds].begin(), json[thresholds].end(),
+                                   [](const auto& value) { return value.is_number(); });
+  if (!is_list) throw FormatError(path, thresholds, "is no list of 8 numbers");
+  std::copy(json[thresholds].begin(), json[thresholds].end(), calibration.lost_thresholds.begin());
   try {
     calibration.check();
   } catch (const InvalidParamsError& error) {
@@ -92,12 +111,9 @@ std::string calibrationHeader(const Calibration& calibration,
   for (std::size_t i = 0; i < MatchFeatures::kCount; ++i) {
     text += std::string(i == 0 ? "" : ", ") + MatchFeatures::kNames[i];
   }
-  text += "\nconstexpr std::array<double, " + std::to_string(MatchFeatures::kCount) +
-          "> kMatchWeights = {";
-  for (std::size_t i = 0; i < MatchFeatures::kCount; ++i) {
-    text += std::string(i == 0 ? "" : ", ") + literal(calibration.match_weights[i]);
-  }
-  return text + "};\n\n}  // namespace mrpt_polyloc::default_calibration\n";
+  text += "\n" + arrayLiteral("kMatchWeights", calibration.match_weights) + "/// of kLostShares\n" +
+          arrayLiteral("kLostThresholds", calibration.lost_thresholds);
+  return text + "\n}  // namespace mrpt_polyloc::default_calibration\n";
 }
 
 ordered_json outcomeJson(const CalibrationOutcome& outcome) {

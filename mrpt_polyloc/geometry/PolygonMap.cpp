@@ -85,8 +85,14 @@ double signedArea(const std::vector<TPoint2D>& vertices) {
   return 0.5 * twice;
 }
 
-PolygonMap::PolygonMap(std::vector<FreePolygon> components, std::vector<Polyline> walls_beyond)
-    : components_(std::move(components)), walls_beyond_(std::move(walls_beyond)) {
+PolygonMap::PolygonMap(std::vector<FreePolygon> components, std::vector<Polyline> walls_beyond,
+                       double cell_size)
+    : components_(std::move(components)),
+      walls_beyond_(std::move(walls_beyond)),
+      cell_size_(cell_size) {
+  if (!(cell_size >= 0.0 && std::isfinite(cell_size))) {
+    throw InvalidMapError("cell size: not a length");
+  }
   if (components_.empty()) throw InvalidMapError("the map has no free space");
   for (const FreePolygon& component : components_) {
     checkRing(component.outer, true);

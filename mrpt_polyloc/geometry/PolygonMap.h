@@ -51,7 +51,9 @@ class POLYLOC_EXPORT PolygonMap {
   /// coordinates, outer rings counterclockwise, holes clockwise, `kinds` as long as `vertices`.
   /// \throws InvalidMapError naming the ring and coordinate if one of these does not hold, or if
   /// there is no component (no free space). Crossings are *not* looked for here.
-  explicit PolygonMap(std::vector<FreePolygon> components, std::vector<Polyline> walls_beyond = {});
+  /// \param cell_size see cellSize()
+  explicit PolygonMap(std::vector<FreePolygon> components, std::vector<Polyline> walls_beyond = {},
+                      double cell_size = 0.0);
 
   const std::vector<FreePolygon>& components() const { return components_; }
   const std::vector<Polyline>& wallsBeyond() const { return walls_beyond_; }
@@ -74,14 +76,19 @@ class POLYLOC_EXPORT PolygonMap {
   double openPerimeter() const;      ///< of the open edges [m]
   double wallsBeyondLength() const;  ///< [m]
 
+  /// Side of the grid cells that the map was traced from [m], 0 if it was drawn: walls are known no
+  /// better than that.
+  double cellSize() const { return cell_size_; }
+
   /// A 64-bit FNV-1a hash of all coordinates and kinds: equal maps, equal hash. Used to tie an
-  /// index file to its map.
+  /// index file to its map, of which it holds where things are, not how well that is known.
   std::uint64_t hash() const;
 
  private:
   std::vector<FreePolygon> components_;
   std::vector<Polyline> walls_beyond_;
   BoundingBox bounding_box_;
+  double cell_size_;
 };
 
 }  // namespace mrpt_polyloc

@@ -74,7 +74,7 @@ PolygonMap traceBitmap(const OccupancyBitmap& bitmap, const TracingParams& param
       simplifyChains(traceBorders(regions), bitmap.width, bitmap.height, params.tolerance_cells);
   const LatticePlacement place = placementOf(bitmap);
   return PolygonMap(assemblePolygons(borders, regions.componentCount(), place),
-                    collectWallsBeyond(borders, place));
+                    collectWallsBeyond(borders, place), bitmap.resolution);
 }
 
 }  // namespace mrpt_polyloc

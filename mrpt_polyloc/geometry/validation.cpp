@@ -85,7 +85,7 @@ MapInspection inspectMap(const RawMap& raw) {
   if (findings.unrepaired.empty()) {
     std::vector<FreePolygon> components = resolve(rings, raw.polygons.size(), findings);
     if (findings.unrepaired.empty()) {
-      inspection.map.emplace(std::move(components), std::move(walls));
+      inspection.map.emplace(std::move(components), std::move(walls), raw.cell_size);
     }
   }
   inspection.defects = std::move(findings.defects);

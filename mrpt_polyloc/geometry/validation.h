@@ -30,6 +30,7 @@ struct POLYLOC_EXPORT RawPolygon {
 struct POLYLOC_EXPORT RawMap {
   std::vector<RawPolygon> polygons;
   std::vector<Polyline> walls_beyond;
+  double cell_size = 0.0;  ///< see PolygonMap::cellSize() [m]
 };
 
 /// A valid map and what had to be done to get it.

@@ -190,6 +190,7 @@ class Reader {
   void readRoot(const JsonAt& root) {
     const std::string type = root.member("type").string();
     if (type == "FeatureCollection") {
+      if (root.has("cell_size")) map_.cell_size = root.member("cell_size").length();
       const JsonAt features = root.member("features");
       for (std::size_t i = 0; i < features.array().size(); ++i) readFeature(features.element(i));
     } else if (type == "Feature") {
@@ -342,7 +343,13 @@ RawMap parseGeoJson(const std::string& text, const std::string& file, Notes* not
 }
 
 std::string toGeoJson(const PolygonMap& map) {
-  std::string out = "{\"type\": \"FeatureCollection\", \"features\": [\n";
+  std::string out = "{\"type\": \"FeatureCollection\", ";
+  if (map.cellSize() > 0.0) {
+    out += "\"cell_size\": ";
+    appendNumber(out, map.cellSize());
+    out += ", ";
+  }
+  out += "\"features\": [\n";
   appendFeatureStart(out, "free", "MultiPolygon");
   for (std::size_t i = 0; i < map.components().size(); ++i) {
     const FreePolygon& component = map.components()[i];

@@ -15,7 +15,8 @@ constexpr double kOpenLineSnap = 1e-6;
 /// `kind` of a feature says what it is: `free` (Polygon or MultiPolygon: free space), `open`
 /// (LineString or MultiLineString: those edges of free space that are open, each vertex a ring
 /// vertex, snapped within kOpenLineSnap) or `wall` (LineString or MultiLineString: walls beyond).
-/// Features in any order; other properties are ignored.
+/// Features in any order; other properties are ignored. The collection's member `cell_size`, if
+/// there is one, is the side of the cells that the map was traced from [m], see PolygonMap.
 ///
 /// As others write it: a feature, a geometry or a GeometryCollection by itself is a map, too; a
 /// feature without geometry says nothing; of features without `kind` polygons are free space, and

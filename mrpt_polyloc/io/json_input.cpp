@@ -61,6 +61,12 @@ std::string JsonAt::string() const {
   return value_.get<std::string>();
 }
 
+double JsonAt::length() const {
+  const double value = value_.is_number() ? value_.get<double>() : 0.0;
+  if (!(value > 0.0 && std::isfinite(value))) fail("expected a length [m]");
+  return value;
+}
+
 TPoint2D JsonAt::point() const {
   if (!value_.is_array()) fail("expected a position [x, y]");
   if (value_.size() < 2) {

@@ -42,6 +42,7 @@ class JsonAt {
   const JsonAt& array() const;
 
   std::string string() const;  ///< \throws FormatError if it is none
+  double length() const;       ///< \throws FormatError if it is no finite number above 0
   /// An array that begins with two finite numbers [m]; an altitude behind them is dropped. \throws
   /// FormatError otherwise.
   TPoint2D point() const;

@@ -60,6 +60,7 @@ void requireModestArea(const std::string& path, double area) {
 void scaleMap(double scale, RawMap& map) {
   requirePositive("scale", scale);
   forEachVertex(map, [scale](TPoint2D& p) { p = {p.x * scale, p.y * scale}; });
+  map.cell_size *= scale;
 }
 
 void scaleMap(double scale, OccupancyBitmap& bitmap) {

@@ -87,6 +87,7 @@ struct CellLocalizer::Impl {
 CellLocalizer::CellLocalizer(MapIndex::Ptr index, CellLocalizerParams params) {
   params.check();
   if (!index) throw InvalidParamsError("index: there is none");
+  params.hypotheses = params.hypotheses.of(index->map());
   impl_ = std::make_unique<Impl>(std::move(index), params);
 }
 CellLocalizer::CellLocalizer(PolygonMap map, CellLocalizerParams params)

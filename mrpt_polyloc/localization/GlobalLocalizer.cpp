@@ -60,6 +60,7 @@ GlobalLocalizer::GlobalLocalizer(MapIndex::Ptr index, GlobalLocalizerParams para
     : index_(std::move(index)), params_(std::move(params)) {
   params_.check();
   if (!index_) throw InvalidParamsError("index: there is none");
+  params_.hypotheses = params_.hypotheses.of(index_->map());
   index_->parts().tree();
 }
 

@@ -45,6 +45,10 @@ MultiMapResult MultiMapLocalizer::localize(const ScanSet& set, const PosePrior& 
     return all;
   }
   const HypothesisParams& with = localizers_.front().params().hypotheses;
+  double map_error = 0.0;  // of the worst map
+  for (const GlobalLocalizer& localizer : localizers_) {
+    map_error = std::max(map_error, localizer.params().hypotheses.mapError());
+  }
   const MomentWeights weights(set, localizers_.front().params().correlation);
   // Rivals count even where they are not asked for.
   constexpr std::size_t kLeastRivals = 20;
@@ -87,7 +91,7 @@ MultiMapResult MultiMapLocalizer::localize(const ScanSet& set, const PosePrior& 
     Hypothesis& hypothesis = candidate.hypothesis;
     hypothesis.z_score =
         std::max(0.0, standardErrors(comparison.difference(best->evidence, candidate.evidence),
-                                     with.indifference));
+                                     map_error));
     hypothesis.weight = std::exp(-with.calibration.weight_decay * hypothesis.z_score);
     sum += hypothesis.weight;
   }

@@ -161,7 +161,7 @@ void HypothesisTracker::weigh(const ScanSet& now, double gain) {
   double before = 0.0, after = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double behind =
-        standardErrors(evidence.difference(values[best], values[i]), with.hypotheses.indifference);
+        standardErrors(evidence.difference(values[best], values[i]), with.hypotheses.mapError());
     const double counted = std::clamp(behind, 0.0, params_.most_standard_errors);
     before += state_.hypotheses[i].weight;
     state_.hypotheses[i].weight *=

@@ -18,7 +18,7 @@ std::vector<Beam> beamsOf(const LaserModel& laser) {
 
 PairEvidence::PairEvidence(const LaserModel& laser, const HypothesisParams& params, double clutter)
     : params_(params),
-      least_error_(std::hypot(params.indifference, clutter)),
+      least_error_(std::hypot(params.mapError(), clutter)),
       max_range_(static_cast<float>(laser.max_range)),
       sectors_(beamsOf(laser)),
       nothing_(laser.bearings.size(), 0.0F) {

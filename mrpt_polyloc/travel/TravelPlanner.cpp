@@ -403,6 +403,7 @@ TravelPlanner::TravelPlanner(MapIndex::Ptr index, TravelPlannerParams params)
       field_(index_->map(), params.safe.robot_radius + params.safe.margin +
                                 params.safe.most_uncertainty + params.safe.comfort +
                                 ClearanceField::kSquare) {
+  params_.evidence = params_.evidence.of(index_->map());
   index_->parts().predictor();
 }
 

@@ -106,18 +106,69 @@ TEST_F(PolylocCalibrate, ACalibrationDecidesWhatIsRefused) {
   makeSets();
   ASSERT_EQ(calibrate().code, 0);
   json calibration = json::parse(readFile(path("out/calibration.json")));
-  const auto refused = [&](double least) {
+  const auto refused = [&](double least, const std::vector<std::string>& more = {}) {
     calibration["least_match_probability"] = least;
     const std::string file = write("changed.json", calibration.dump());
-    const Outcome outcome = run(
-        "polyloc-eval", {"--map", path("hall.wkt"), "--scans", path("hall/scans.rawlog"), "--truth",
-                         path("hall/truth.tum"), "--calibration", file, "-o", path("eval")});
+    std::vector<std::string> arguments = {"--map",
+                                          path("hall.wkt"),
+                                          "--scans",
+                                          path("hall/scans.rawlog"),
+                                          "--truth",
+                                          path("hall/truth.tum"),
+                                          "--calibration",
+                                          file,
+                                          "-o",
+                                          path("eval")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run("polyloc-eval", arguments);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return json::parse(readFile(path("eval/summary.json")))["status"]["no_match"].get<int>();
   };
   EXPECT_EQ(refused(0.0), 0);
+  calibration["lost_thresholds"] = {0, 0, 0, 0, 0, 0, 0, 1};
+  EXPECT_EQ(refused(1.0, {"--max-lost", "0.03"}), 0);
+  EXPECT_EQ(refused(0.0, {"--max-lost", "0.05"}), 8);
   calibration["match_intercept"] = -1e6;
   EXPECT_EQ(refused(0.5), 8);
+}
+
+TEST_F(PolylocCalibrate, AnotherFormOfABuildingCountsForWeightsAlone) {
+  makeSets();
+  ASSERT_EQ(calibrate().code, 0);
+  const json before = json::parse(readFile(path("out/report.json")));
+  const std::string list = readFile(path("sets.txt"));
+  write("sets.txt", list + "hall/again hall.wkt cross/scans.rawlog cross/truth.tum\n");
+  ASSERT_EQ(calibrate().code, 0);
+  const json after = json::parse(readFile(path("out/report.json")));
+  for (const char* count : {"good", "foreign", "cluttered"}) {
+    EXPECT_EQ(after["fitted"][count], before["fitted"][count]) << count;
+  }
+  for (const char* constant : {"match_intercept", "match_weights", "least_match_probability"}) {
+    EXPECT_EQ(after["calibration"][constant], before["calibration"][constant]) << constant;
+  }
+  // Its scans are of another place: what was unique and right no longer is.
+  EXPECT_NE(after["calibration"]["weight_decay"], before["calibration"]["weight_decay"]);
+}
+
+TEST_F(PolylocCalibrate, OnCoarseCellsLessIsUnique) {
+  makeSets();
+  const auto unique = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {
+        "--map",   path("hall.wkt"),       "--scans", path("hall/scans.rawlog"),
+        "--truth", path("hall/truth.tum"), "-o",      path("eval")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run("polyloc-eval", arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return json::parse(readFile(path("eval/summary.json")))["status"]["unique"].get<int>();
+  };
+  EXPECT_GT(unique({}), unique({"--cell-size", "50"}));
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--cell-size", "0"}, {"--max-lost", "1.5"}}) {
+    EXPECT_EQ(run("polyloc-localize", {"--map", path("hall.wkt"), "--scans",
+                                       path("hall/scans.rawlog"), more[0], more[1]})
+                  .code,
+              2);
+  }
 }
 
 TEST_F(PolylocCalibrate, BadListsNameFileAndPlace) {
@@ -125,6 +176,8 @@ TEST_F(PolylocCalibrate, BadListsNameFileAndPlace) {
   const std::string hall = "hall hall.wkt hall/scans.rawlog hall/truth.tum good.txt\n";
   expectFailure("", "sets.txt", "empty file");
   expectFailure(hall, "sets.txt", "fewer than two sets");
+  expectFailure(hall + "hall/coarse hall.wkt hall/scans.rawlog hall/truth.tum\n", "sets.txt",
+                "fewer than two sets");
   expectFailure(hall + "cross cross.wkt\n", "sets.txt", "line 2");
   expectFailure(hall + "\n" + hall, "sets.txt", "line 3");
   expectFailure(hall + "x gone.wkt cross/scans.rawlog cross/truth.tum\n", "gone.wkt",

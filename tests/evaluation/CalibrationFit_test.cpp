@@ -155,6 +155,44 @@ TEST(FitCalibration, TheThresholdOfUniqueIsTheLeastThatHolds) {
   EXPECT_DOUBLE_EQ(calibration.unique_probability, least);
 }
 
+TEST(FitCalibration, NoMoreForeignScansAreUniqueThanAllowed) {
+  auto samples = drawSamples(7);
+  for (std::size_t i = 0; i < samples.size(); i += 5) {  // some pass for a match, as own ones do
+    if (samples[i].origin == ScanOrigin::foreign) samples[i].features = samples.front().features;
+  }
+  CalibrationFitParams params;
+  params.lost = 0.0;
+  params.unique_right = 0.0;
+  std::size_t before = samples.size();
+  for (const double share : {1.0, 0.1, 0.01, 0.0}) {
+    params.foreign_unique = share;
+    const Calibration calibration = fitCalibration(samples, params);
+    const auto outcome = judge(samples, std::vector<Calibration>(samples.size(), calibration));
+    EXPECT_LE(static_cast<double>(outcome.foreign_unique),
+              share * static_cast<double>(outcome.foreign));
+    EXPECT_LE(outcome.unique, before);
+    before = outcome.unique;
+  }
+  EXPECT_GT(before, 0U);
+}
+
+TEST(FitCalibration, ThresholdsOfTheStatedShares) {
+  const auto samples = drawSamples(8);
+  const Calibration calibration = fitCalibration(samples);
+  double all = 0.0;
+  for (const CalibrationSample& sample : samples) all += sample.origin == ScanOrigin::own;
+  for (const double share : Calibration::kLostShares) {
+    const double threshold = calibration.thresholdFor(share);
+    double lost = 0.0;
+    for (const CalibrationSample& sample : samples) {
+      if (sample.origin != ScanOrigin::own) continue;
+      lost += calibration.matchProbability(sample.features) < threshold;
+    }
+    EXPECT_LE(lost, share * all);
+    EXPECT_GE(lost, share * all - 1.0);
+  }
+}
+
 TEST(FitCalibration, WhereNothingHoldsNothingIsUnique) {
   auto samples = drawSamples(5, 3, 50);
   double best = 0.0;

@@ -20,6 +20,7 @@ Calibration someCalibration() {
   calibration.match_intercept = -3.25;
   calibration.match_weights = {1.5, 2.0, -0.5, 0.125, 0.25};
   calibration.least_match_probability = 0.0625;
+  calibration.lost_thresholds = {0.0, 0.0, 0.125, 0.25, 0.25, 0.5, 0.625, 0.75};
   calibration.weight_decay = 3.0;
   calibration.unique_probability = 0.875;
   calibration.position_factor = 1.25;
@@ -45,6 +46,7 @@ TEST(CalibrationFile, WhatIsWrittenIsRead) {
   EXPECT_EQ(after.match_intercept, before.match_intercept);
   EXPECT_EQ(after.match_weights, before.match_weights);
   EXPECT_EQ(after.least_match_probability, before.least_match_probability);
+  EXPECT_EQ(after.lost_thresholds, before.lost_thresholds);
   EXPECT_EQ(after.weight_decay, before.weight_decay);
   EXPECT_EQ(after.unique_probability, before.unique_probability);
   EXPECT_EQ(after.position_factor, before.position_factor);
@@ -65,7 +67,14 @@ TEST(CalibrationFile, ErrorsNameFileAndMember) {
   EXPECT_THAT(changed("least_match_probability", 1.5), HasSubstr("least_match_probability"));
   EXPECT_THAT(changed("match_weights", 3), HasSubstr("match_weights"));
   EXPECT_THAT(changed("match_weights", {{"lead", 1}}), HasSubstr("explained"));
+  EXPECT_THAT(changed("lost_thresholds", {0.1, 0.2}), HasSubstr("lost_thresholds"));
+  EXPECT_THAT(changed("lost_thresholds", {0, 0, 0, 0, 0, 0, 0, "x"}), HasSubstr("8 numbers"));
+  EXPECT_THAT(changed("lost_thresholds", {0, 0, 0.5, 0.25, 1, 1, 1, 1}),
+              HasSubstr("lost_thresholds"));
   nlohmann::ordered_json json = calibrationJson(someCalibration());
+  json.erase("lost_thresholds");
+  EXPECT_THAT(complaintOf(json.dump()), AllOf(HasSubstr("lost_thresholds"), HasSubstr("missing")));
+  json = calibrationJson(someCalibration());
   json.erase("heading_factor");
   EXPECT_THAT(complaintOf(json.dump()), AllOf(HasSubstr("heading_factor"), HasSubstr("missing")));
   EXPECT_THROW(loadCalibration("no_such_file.json"), FormatError);
@@ -79,6 +88,8 @@ TEST(CalibrationHeader, HoldsTheConstants) {
   EXPECT_THAT(
       text,
       HasSubstr("constexpr std::array<double, 5> kMatchWeights = {1.5, 2.0, -0.5, 0.125, 0.25};"));
+  EXPECT_THAT(text,
+              HasSubstr("kLostThresholds = {0.0, 0.0, 0.125, 0.25, 0.25, 0.5, 0.625, 0.75};"));
 }
 
 TEST(CalibrationHeader, TheBuiltInOneIsWhatItWouldWrite) {

@@ -301,6 +301,7 @@ TEST(Tracing, PoseIsAppliedUnrounded) {
     EXPECT_NEAR(to[i].a.y, -6.789 + x * std::sin(0.3) + y * std::cos(0.3), 1e-12);
     EXPECT_EQ(from[i].kind, to[i].kind);
   }
+  EXPECT_EQ(placed.cellSize(), 0.1);
 }
 
 TEST(Tracing, NoisyGridKeepsItsTopology) {

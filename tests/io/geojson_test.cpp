@@ -180,6 +180,22 @@ TEST(GeoJson, RoundTripIsExactWithKindsAndWallsBeyond) {
   EXPECT_EQ(roundTrip(two).hash(), two.hash());
 }
 
+TEST(GeoJson, TheCellSizeComesBackAndNonsenseIsRefused) {
+  const PolygonMap drawn = squareMap(4.0);
+  EXPECT_EQ(roundTrip(drawn).cellSize(), 0.0);
+  const PolygonMap traced(drawn.components(), {}, 0.05);
+  EXPECT_EQ(roundTrip(traced).cellSize(), 0.05);
+  EXPECT_EQ(traced.hash(), drawn.hash());
+  EXPECT_THROW(PolygonMap(drawn.components(), {}, -0.05), InvalidMapError);
+  EXPECT_THROW(PolygonMap(drawn.components(), {}, std::nan("")), InvalidMapError);
+  const std::string text = toGeoJson(traced);
+  for (const char* bad : {"0", "-0.05", "\"5 cm\"", "null", "1e999"}) {
+    std::string changed = text;
+    changed.replace(changed.find("0.05"), 4, bad);
+    EXPECT_THROW(parseGeoJson(changed, "x.geojson"), FormatError) << bad;
+  }
+}
+
 TEST(GeoJson, RoundTripOfAMapWithManyOpenEdges) {
   const PolygonMap map = withOpenEdges(largeMap(), 0.5, 1);
   EXPECT_EQ(roundTrip(map).hash(), map.hash());

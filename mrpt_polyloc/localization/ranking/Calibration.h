@@ -19,6 +19,11 @@ struct POLYLOC_EXPORT Calibration {
   std::array<double, MatchFeatures::kCount> match_weights;
   /// Below this probability the answer is `no_match`; 0: never.
   double least_match_probability;
+  /// Other thresholds for that, rising: of the scans that it was fitted on, taken in the map and in
+  /// agreement with it, each refuses the share kLostShares.
+  std::array<double, 8> lost_thresholds;
+  static constexpr std::array<double, 8> kLostShares = {0.0,  0.001, 0.003, 0.005,
+                                                        0.01, 0.02,  0.03,  0.05};
 
   /// Weights fall by exp(-weight_decay) for each standard error by which a hypothesis falls behind
   /// the first.
@@ -33,6 +38,10 @@ struct POLYLOC_EXPORT Calibration {
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;
+
+  /// The threshold that loses at most this share [0, 1] of true scans: that of the greatest of
+  /// kLostShares that is not above it.
+  double thresholdFor(double lost) const;
 
   /// The probability that the scan was taken in the map, in [0, 1].
   double matchProbability(const MatchFeatures& features) const;

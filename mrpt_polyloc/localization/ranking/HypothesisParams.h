@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/base/export.h>
+#include <mrpt_polyloc/geometry/PolygonMap.h>
 #include <mrpt_polyloc/localization/ranking/Calibration.h>
 #include <mrpt_polyloc/localization/scan/BeamEvidenceParams.h>
 
@@ -9,11 +10,22 @@ namespace mrpt_polyloc {
 struct POLYLOC_EXPORT HypothesisParams {
   double merge_distance = 0.2;               ///< poses nearer than this are one hypothesis [m] ...
   double merge_angle = 0.06981317007977318;  ///< ... if their headings are, too [rad], 4 degrees
-  /// A difference of the mean evidence counts in units of its standard error, or of this if that is
-  /// less [m]: the map itself is not better.
-  double indifference = 0.004;
+  /// A difference of the mean evidence counts in units of its standard error, that of the beams and
+  /// that of the map: walls do not stand quite where the map has them, and so many beams on few
+  /// walls err together. This much in any map [m] ...
+  double indifference = 0.002;
+  /// ... and this share of the side of the cells that the map was traced from.
+  double cell_share = 0.6;
+  /// That side [m]; 0: what the map says (PolygonMap::cellSize()), for localizers fill it in.
+  double cell_size = 0.0;
   BeamEvidenceParams evidence;  ///< by which hypotheses are ranked and weighed
   Calibration calibration;
+
+  /// These for a map: its cell size is filled in if none is given.
+  HypothesisParams of(const PolygonMap& map) const;
+
+  /// The standard error of a difference of means that comes from the map [m].
+  double mapError() const;
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;

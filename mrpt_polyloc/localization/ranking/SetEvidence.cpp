@@ -84,8 +84,8 @@ PairedDifference SetEvidence::difference(const Values& a, const Values& b) const
   return result;
 }
 
-double standardErrors(const PairedDifference& difference, double indifference) {
-  return difference.mean / std::hypot(difference.standard_error, indifference);
+double standardErrors(const PairedDifference& difference, double map_error) {
+  return difference.mean / std::hypot(difference.standard_error, map_error);
 }
 
 }  // namespace mrpt_polyloc

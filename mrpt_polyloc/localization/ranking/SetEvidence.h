@@ -50,7 +50,7 @@ class POLYLOC_EXPORT SetEvidence {
 };
 
 /// By how many standard errors a difference of the evidence stands out, with its sign.
-/// \param indifference a standard error below this counts as this [m], see HypothesisParams
-POLYLOC_EXPORT double standardErrors(const PairedDifference& difference, double indifference);
+/// \param map_error see HypothesisParams::mapError() [m]
+POLYLOC_EXPORT double standardErrors(const PairedDifference& difference, double map_error);
 
 }  // namespace mrpt_polyloc

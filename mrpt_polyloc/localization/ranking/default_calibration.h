@@ -4,23 +4,58 @@
 
 /// Written by polyloc-calibrate; do not edit.
 /// polyloc-calibrate SETS --own 1000000 --cluttered 60 --foreign 40
-///   --lost 0.001 --unique-right 0.995 --clutter-weight 0.1, on the sets
+///   --lost 0.001 --unique-right 0.995 --foreign-unique 0.003 --clutter-weight 0.1
+/// on the sets
 ///   intel (454 scans)
+///   intel/2 (454 scans)
+///   intel/4 (454 scans)
 ///   fr079 (299 scans)
+///   fr079/2 (299 scans)
+///   fr079/4 (299 scans)
 ///   csail (202 scans)
+///   csail/2 (202 scans)
+///   csail/4 (202 scans)
 ///   aces (220 scans)
+///   aces/2 (220 scans)
+///   aces/4 (220 scans)
 ///   gh25_sim (68 scans)
 ///   malaga_fac (49 scans)
 ///   locdemo (37 scans)
+///   office3/180/office3.wkt (150 scans)
+///   office3/180/office3-0.05.yaml (150 scans)
+///   office3/180/office3-0.1.yaml (150 scans)
+///   office3/180/office3-0.2.yaml (150 scans)
+///   office3/360/office3.wkt (150 scans)
+///   office3/360/office3-0.05.yaml (150 scans)
+///   office3/360/office3-0.1.yaml (150 scans)
+///   office3/360/office3-0.2.yaml (150 scans)
+///   office5/180/office5.wkt (150 scans)
+///   office5/180/office5-0.05.yaml (150 scans)
+///   office5/180/office5-0.1.yaml (150 scans)
+///   office5/180/office5-0.2.yaml (150 scans)
+///   office5/360/office5.wkt (150 scans)
+///   office5/360/office5-0.05.yaml (150 scans)
+///   office5/360/office5-0.1.yaml (150 scans)
+///   office5/360/office5-0.2.yaml (150 scans)
+///   office8/180/office8.wkt (150 scans)
+///   office8/180/office8-0.05.yaml (150 scans)
+///   office8/180/office8-0.1.yaml (150 scans)
+///   office8/180/office8-0.2.yaml (150 scans)
+///   office8/360/office8.wkt (150 scans)
+///   office8/360/office8-0.05.yaml (150 scans)
+///   office8/360/office8-0.1.yaml (150 scans)
+///   office8/360/office8-0.2.yaml (150 scans)
 namespace mrpt_polyloc::default_calibration {
 
-constexpr double kMatchIntercept = -19.12686;
-constexpr double kLeastMatchProbability = 0.03716707;
-constexpr double kWeightDecay = 5.485084;
-constexpr double kUniqueProbability = 0.6347036;
+constexpr double kMatchIntercept = -20.69154;
+constexpr double kLeastMatchProbability = 0.04284718;
+constexpr double kWeightDecay = 9.37414;
+constexpr double kUniqueProbability = 0.9314646;
 constexpr double kPositionFactor = 1.790487;
 constexpr double kHeadingFactor = 1.181889;
 /// explained, lead, heading, seen, on_walls
-constexpr std::array<double, 5> kMatchWeights = {0.276987, 10.46386, -1.188876, 3.162485, 11.56857};
+constexpr std::array<double, 5> kMatchWeights = {1.057459, 10.70416, -1.258707, 3.749505, 11.18016};
+/// of kLostShares
+constexpr std::array<double, 8> kLostThresholds = {3.044822e-05, 0.04284718, 0.07897763, 0.2626579, 0.4284091, 0.5186199, 0.6339599, 0.7627498};
 
 }  // namespace mrpt_polyloc::default_calibration

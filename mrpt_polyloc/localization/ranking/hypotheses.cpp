@@ -25,10 +25,10 @@ double meanOf(const std::vector<float>& values) {
 
 /// By how many standard errors the evidence `other` falls behind `best`.
 double zScore(const std::vector<float>& best, const std::vector<float>& other,
-              const BeamSectors& sectors, double indifference) {
+              const BeamSectors& sectors, double map_error) {
   const PairedDifference difference = sectors.difference(best, other);
   // The best is the best up to rounding.
-  return std::max(0.0, difference.mean) / std::hypot(difference.standard_error, indifference);
+  return std::max(0.0, difference.mean) / std::hypot(difference.standard_error, map_error);
 }
 
 }  // namespace
@@ -37,8 +37,20 @@ void HypothesisParams::check() const {
   requirePositive("merge_distance", merge_distance);
   requirePositive("merge_angle", merge_angle);
   requirePositive("indifference", indifference);
+  requireNotNegative("cell_share", cell_share);
+  requireNotNegative("cell_size", cell_size);
   evidence.check();
   calibration.check();
+}
+
+HypothesisParams HypothesisParams::of(const PolygonMap& map) const {
+  HypothesisParams filled = *this;
+  if (filled.cell_size == 0.0) filled.cell_size = map.cellSize();
+  return filled;
+}
+
+double HypothesisParams::mapError() const {
+  return std::hypot(indifference, cell_share * cell_size);
 }
 
 std::vector<ScoredPose> mergeNearPoses(std::vector<ScoredPose> poses,
@@ -72,7 +84,7 @@ std::vector<Hypothesis> toHypotheses(const std::vector<ScoredPose>& poses, const
   const BeamSectors sectors(cost.beams());
   std::vector<double> z_scores;
   for (const std::vector<float>& other : evidence) {
-    z_scores.push_back(zScore(evidence[best], other, sectors, params.indifference));
+    z_scores.push_back(zScore(evidence[best], other, sectors, params.mapError()));
   }
   std::vector<std::size_t> ranks(poses.size());
   std::iota(ranks.begin(), ranks.end(), std::size_t{0});

@@ -170,8 +170,8 @@ Assessment rankCandidates(const std::vector<TPose2D>& candidates, const ScanSet&
   }
   std::vector<double> z_scores;
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    const double behind = standardErrors(evidence.difference(values[best], values[i]),
-                                         params.hypotheses.indifference);
+    const double behind =
+        standardErrors(evidence.difference(values[best], values[i]), params.hypotheses.mapError());
     const double tension = 0.5 * ways[i].refined.tension / calibration.weight_decay;
     z_scores.push_back(std::max(0.0, behind) + tension);
   }

@@ -20,10 +20,24 @@ TEST(Calibration, IsTheBuiltInOneUnlessToldOtherwise) {
   EXPECT_EQ(calibration.match_intercept, default_calibration::kMatchIntercept);
   EXPECT_EQ(calibration.match_weights, default_calibration::kMatchWeights);
   EXPECT_EQ(calibration.least_match_probability, default_calibration::kLeastMatchProbability);
+  EXPECT_EQ(calibration.lost_thresholds, default_calibration::kLostThresholds);
   EXPECT_EQ(calibration.weight_decay, default_calibration::kWeightDecay);
   EXPECT_EQ(calibration.unique_probability, default_calibration::kUniqueProbability);
   EXPECT_EQ(calibration.position_factor, default_calibration::kPositionFactor);
   EXPECT_EQ(calibration.heading_factor, default_calibration::kHeadingFactor);
+}
+
+TEST(Calibration, TheThresholdForAShareLosesNoMore) {
+  Calibration calibration;
+  calibration.lost_thresholds = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
+  EXPECT_EQ(calibration.thresholdFor(0.0), 0.1);
+  EXPECT_EQ(calibration.thresholdFor(0.0009), 0.1);
+  EXPECT_EQ(calibration.thresholdFor(0.001), 0.2);
+  EXPECT_EQ(calibration.thresholdFor(0.0299), 0.6);
+  EXPECT_EQ(calibration.thresholdFor(0.03), 0.7);
+  EXPECT_EQ(calibration.thresholdFor(1.0), 0.8);
+  EXPECT_THROW(calibration.thresholdFor(-0.1), InvalidParamsError);
+  EXPECT_THROW(calibration.thresholdFor(std::nan("")), InvalidParamsError);
 }
 
 TEST(Calibration, TheOddsOfAMatchAreTheExponentialOfTheScore) {

@@ -121,6 +121,24 @@ TEST_F(InASquare, ErrorsBehindAreThoseOfTheEvidenceBySectors) {
   const auto hypotheses = hypothesesOf({at(truth_), at(wrong_)});
   EXPECT_NEAR(hypotheses[1].z_score, mean / std::hypot(error, HypothesisParams{}.indifference),
               1e-6 * hypotheses[1].z_score);
+  // The same on a map of cells, of which walls are known no better.
+  HypothesisParams coarse;
+  coarse.cell_size = 0.2;
+  coarse.cell_share = 0.5;
+  const auto less_sure = hypothesesOf({at(truth_), at(wrong_)}, coarse);
+  EXPECT_NEAR(less_sure[1].z_score,
+              mean / std::sqrt(error * error + std::pow(coarse.indifference, 2) + 0.1 * 0.1),
+              1e-6 * hypotheses[1].z_score);
+}
+
+TEST(HypothesisParams, TheCellSizeIsTheMapsUnlessOneIsGiven) {
+  const std::vector<FreePolygon> components = squareMap(5.0).components();
+  EXPECT_EQ(HypothesisParams{}.of(PolygonMap(components)).cell_size, 0.0);
+  const PolygonMap traced(components, {}, 0.1);
+  EXPECT_EQ(HypothesisParams{}.of(traced).cell_size, 0.1);
+  HypothesisParams params;
+  params.cell_size = 0.25;
+  EXPECT_EQ(params.of(traced).cell_size, 0.25);
 }
 
 TEST_F(InASquare, RankedByTheEvidenceWhateverTheOrder) {
@@ -170,6 +188,8 @@ TEST(HypothesisParams, ChecksNameTheField) {
   expectNamed(&HypothesisParams::merge_distance, "merge_distance");
   expectNamed(&HypothesisParams::merge_angle, "merge_angle");
   expectNamed(&HypothesisParams::indifference, "indifference");
+  expectNamed(&HypothesisParams::cell_share, "cell_share");
+  expectNamed(&HypothesisParams::cell_size, "cell_size");
   HypothesisParams params;
   params.calibration.weight_decay = 0.0;
   EXPECT_THAT(complaintOf(params), HasSubstr("weight_decay"));
