@@ -1,6 +1,4 @@
-#include "Browser.h"
-#include "ProgramTest.h"
-#include "ViewProcess.h"
+#include "ViewPage.h"
 #include "pictures.h"
 
 #include <cmath>
@@ -22,52 +20,6 @@ const std::string kSource = POLYLOC_SOURCE_DIR;
 const std::string kNiches = kSource + "/datasets/niches.wkt";
 const std::string kFlat = kSource + "/datasets/flat.wkt";
 const std::string kLeft = "\uE012", kShift = "\uE008", kEnter = "\uE007";
-
-class ViewPage : public ProgramTest {
- protected:
-  void SetUp() override {
-    if (!Browser::missing().empty()) GTEST_SKIP() << Browser::missing();
-    browser_ = std::make_unique<Browser>();
-    browser_->emulate(1200, 760);
-  }
-  void TearDown() override {
-    if (!browser_) return;
-    const std::vector<std::string> complaints = browser_->complaints();
-    EXPECT_TRUE(complaints.empty() || expects_complaints_) << json(complaints).dump(1);
-  }
-
-  Browser& browser() { return *browser_; }
-
-  /// Opens the page at a state and waits for its answer.
-  void open(const ViewProcess& server, const std::string& state) {
-    browser().open(server.url() + "/#" + state);
-    ASSERT_TRUE(settled());
-  }
-  bool settled() {
-    return browser().waitFor("globalThis.polyloc?.data.answer && !polyloc.isBusy()");
-  }
-  json state(const std::string& key) { return browser().run("return polyloc.state." + key); }
-  json result() { return browser().run("return polyloc.data.answer.result"); }
-  /// Where a place of the map is on the page [pixels].
-  std::pair<double, double> onPage(double x, double y) {
-    const json at = browser().run(
-        "const box = document.getElementById('map').getBoundingClientRect();"
-        "const [px, py] = polyloc.camera.toScreen(" +
-        std::to_string(x) + "," + std::to_string(y) + "); return [box.left + px, box.top + py]");
-    return {at[0].get<double>(), at[1].get<double>()};
-  }
-  void expectFirst(double x, double y, double deg) {
-    const json first = result()["hypotheses"][0];
-    EXPECT_NEAR(first["x"].get<double>(), x, 0.15);
-    EXPECT_NEAR(first["y"].get<double>(), y, 0.15);
-    EXPECT_LT(std::abs(std::remainder(first["phi"].get<double>() * 180 / M_PI - deg, 360)), 4.0);
-  }
-
-  bool expects_complaints_ = false;
-
- private:
-  std::unique_ptr<Browser> browser_;
-};
 
 TEST_F(ViewPage, TheTourOfTheFirstVisitGoesThroughFiveSteps) {
   const ViewProcess server({});
@@ -385,7 +337,7 @@ struct FixedState {
   const char* name;
   const char* state;
   bool dark;
-  bool of_demo = false;  ///< of MRPT's localization_demo, else of the niches map
+  enum { niches, rooms, demo } map = niches;  ///< demo: MRPT's localization_demo
 };
 
 /// The pictures of the documentation are those of these states; they are drawn anew with
@@ -399,19 +351,25 @@ TEST_F(ViewPage, LooksAsInTheDocumentation) {
         std::vector<std::string>{"--map", demo + ".simplemap.gz", "--scans", demo + ".rawlog",
                                  "--truth", kSource + "/datasets/localization_demo_truth.tum"});
   }
+  const ViewProcess rooms({kSource + "/datasets/rooms_one_deeper.wkt"});
   const FixedState states[] = {
-      {"view_twins", "x=4.25&y=-3.25&deg=90&show=scan,beams,hypotheses,gallery", false, false},
+      {"view_twins", "x=4.25&y=-3.25&deg=90&show=scan,beams,hypotheses,gallery", false},
       {"view_cells", "x=11&y=1.6&deg=90&method=exact&show=hypotheses,cells,segments,view,skeleton",
-       false, false},
+       false},
       {"view_polar",
        "x=9&y=3&deg=60&sigma=5&discs=10.5,3.2,0.3&show=scan,predicted,hypotheses,polar", true},
-      {"view_bands", "x=7&y=2.4&deg=20&show=scan,hypotheses,regions,bands", true, false},
-      {"view_log", "row=22&show=scan,hypotheses,polar", false, true},
+      {"view_bands", "x=7&y=2.4&deg=20&show=scan,hypotheses,regions,bands", true},
+      {"view_drive", "x=6.5&y=-2.6&deg=80&range=4&seed=3&step=0", false, FixedState::rooms},
+      {"view_known", "x=4.5&y=-3.25&deg=90&step=3", true},
+      {"view_log", "row=22&show=scan,hypotheses,polar", false, FixedState::demo},
   };
   for (const FixedState& fixed : states) {
-    if (fixed.of_demo && !log) continue;
+    if (fixed.map == FixedState::demo && !log) continue;
     browser().emulate(1100, 700, fixed.dark);
-    open(fixed.of_demo ? *log : niches, fixed.state);
+    open(fixed.map == FixedState::demo    ? *log
+         : fixed.map == FixedState::rooms ? rooms
+                                          : niches,
+         fixed.state);
     ASSERT_TRUE(
         browser().waitFor("(!polyloc.state.show.includes('cells') || polyloc.data.cells) && "
                           "(!polyloc.state.show.includes('skeleton') || polyloc.data.view) && "

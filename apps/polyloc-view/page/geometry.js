@@ -43,6 +43,19 @@ export const degrees = (angle) => (angle * 180) / Math.PI;
 // In [-180, 180).
 export const wrapped = (deg) => ((((deg + 180) % 360) + 360) % 360) - 180;
 
+// Flat chains of the robot's frame, as they lie in the map if it stands at a pose.
+export function placed(chains, pose) {
+  const c = Math.cos(pose.phi), s = Math.sin(pose.phi);
+  return chains.map((chain) => {
+    const moved = new Array(chain.length);
+    for (let i = 0; i < chain.length; i += 2) {
+      moved[i] = pose.x + c * chain[i] - s * chain[i + 1];
+      moved[i + 1] = pose.y + s * chain[i] + c * chain[i + 1];
+    }
+    return moved;
+  });
+}
+
 // Whether a point lies in rings of flat chains, by the even-odd rule.
 export function inside(rings, x, y) {
   let is = false;

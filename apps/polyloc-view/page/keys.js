@@ -10,6 +10,8 @@ const other = [
   ['0', 'whole map'],
   ['1 … 9', 'choose a hypothesis'],
   ['Enter', 'put the robot where the chosen hypothesis is'],
+  ['d', 'plan where to drive so that wrong hypotheses fall; then drive, a step at a time (Shift: to the end)'],
+  ['a', 'a step of the drive back'],
   ['i', 'drop an object before the robot'],
   ['u', 'tidy up: no objects, no moved walls'],
   ['y', 'next method'],
@@ -19,7 +21,7 @@ const other = [
   ['space', 'play and stop the log'],
   [', .', 'scan before, next scan of the log'],
   ['n', 'next miss'],
-  ['Esc', 'leave the log; close'],
+  ['Esc', 'leave the log; end the drive; close'],
   ['?', 'these keys'],
 ];
 
@@ -76,7 +78,7 @@ function pressed(event, act) {
   const name = {
     '+': 'zoomIn', '=': 'zoomIn', '-': 'zoomOut', 0: 'fit', enter: 'adopt', i: 'drop', u: 'tidy', y: 'nextMethod',
     m: 'panel', t: 'theme', ' ': 'play', ',': 'before', '.': 'next', n: 'nextMiss', escape: 'leave', '?': 'help',
-    j: event.shiftKey ? 'savePng' : 'saveSvg',
+    j: event.shiftKey ? 'savePng' : 'saveSvg', d: event.shiftKey ? 'driveToTheEnd' : 'drive', a: 'driveBack',
   }[key];
   if (!name) return false;
   act[name]();
