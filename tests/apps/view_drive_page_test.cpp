@@ -1,5 +1,7 @@
 #include "ViewPage.h"
+#include "view_floor.h"
 
+#include <iostream>
 #include <string>
 
 /// The second stage on the page of polyloc-view, in a real browser.
@@ -154,6 +156,21 @@ TEST_F(ViewDrive, FourHundredPixelsAreEnough) {
                           "{ const box = b.getBoundingClientRect(); return box.right > 400 || "
                           "box.bottom > innerHeight || box.height < 20; }).length"),
             0);
+}
+
+/// Stated, not asserted: what a step takes on 1,600 m2, where a laser of 2 m sees little.
+TEST_F(ViewDrive, SpeedOfAStepIsStated) {
+  const ViewProcess server({write("floor.wkt", floorOf(8))});
+  open(server, "x=17.5&y=19.5&deg=17&range=2&seed=2&step=0");
+  double ms = drive("result.ms");
+  int steps = 1;
+  for (; drive("outcome").is_null() && steps < 6; ++steps) {
+    click("travel-go");
+    ms += drive("result.ms").get<double>();
+  }
+  EXPECT_GT(ms, 0.0);
+  std::cout << "a step of a drive, 1,600 m2: " << ms / steps << " ms, mean of " << steps << '\n';
+  RecordProperty("step_ms", std::to_string(ms / steps));
 }
 
 TEST_F(ViewDrive, WhatIsSeenIsSaved) {

@@ -85,7 +85,8 @@ export class Travel {
     $('travel-run').disabled = this.isOver;
     $('travel-run').textContent = this.isRunning ? '❚❚' : '▶';
     $('travel-run').setAttribute('aria-label', this.isRunning ? 'Stop' : 'Drive to the end');
-    const words = on && this.drive ? wordsOf(this.drive) : '';
+    const isThere = this.drive && (this.drive.step === this.step || this.isOver);
+    const words = !on ? '' : isThere ? wordsOf(this.drive) : 'Drives, looks, plans…';
     if ($('travel-text').textContent !== words) $('travel-text').textContent = words;
   }
 }
