@@ -6,6 +6,7 @@
 namespace mrpt_polyloc::test {
 namespace {
 
+const std::string kShift = "\uE008";
 const std::string kFlat = std::string(POLYLOC_SOURCE_DIR) + "/datasets/flat.wkt";
 
 class ViewHand : public ViewPage {
@@ -43,6 +44,28 @@ TEST_F(ViewHand, ObjectsAreDroppedAndWallsAreMovedByTheMouse) {
   EXPECT_NE(state("walls"), "");
   EXPECT_LT(seen(), before - 1.0);
   EXPECT_EQ(browser().run("return document.querySelector('[name=tool]:checked').value"), "robot");
+  browser().press("u");
+  ASSERT_TRUE(settled());
+  EXPECT_NEAR(seen(), before, 1e-6);
+}
+
+TEST_F(ViewHand, KeysMoveTheWallAhead) {
+  const ViewProcess server({kFlat});
+  open(server, "x=8&y=7&deg=90&sigma=0");
+  const std::string count = "return polyloc.state.walls.split(';').filter(Boolean).length";
+  const double before = seen();
+  browser().press("w");
+  ASSERT_TRUE(settled());
+  EXPECT_EQ(browser().run(count), 1);
+  const double pushed = seen();
+  EXPECT_GT(pushed, before + 1.0);
+  browser().press("w");  // the same on
+  ASSERT_TRUE(settled());
+  EXPECT_EQ(browser().run(count), 1);
+  EXPECT_GT(seen(), pushed + 1.0);
+  browser().press("w", kShift);
+  ASSERT_TRUE(settled());
+  EXPECT_NEAR(seen(), pushed, 1e-3);
   browser().press("u");
   ASSERT_TRUE(settled());
   EXPECT_NEAR(seen(), before, 1e-6);

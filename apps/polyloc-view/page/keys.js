@@ -13,6 +13,7 @@ const other = [
   ['d', 'plan where to drive so that wrong hypotheses fall; then drive, a step at a time (Shift: to the end)'],
   ['a', 'a step of the drive back'],
   ['i', 'drop an object before the robot'],
+  ['w', 'push the wall before the robot 0.2 m away (Shift: nearer)'],
   ['u', 'tidy up: no objects, no moved walls'],
   ['y', 'next method'],
   ['m', 'controls'],
@@ -79,6 +80,7 @@ function pressed(event, act) {
     '+': 'zoomIn', '=': 'zoomIn', '-': 'zoomOut', 0: 'fit', enter: 'adopt', i: 'drop', u: 'tidy', y: 'nextMethod',
     m: 'panel', t: 'theme', ' ': 'play', ',': 'before', '.': 'next', n: 'nextMiss', escape: 'leave', '?': 'help',
     j: event.shiftKey ? 'savePng' : 'saveSvg', d: event.shiftKey ? 'driveToTheEnd' : 'drive', a: 'driveBack',
+    w: event.shiftKey ? 'pullWall' : 'pushWall',
   }[key];
   if (!name) return false;
   act[name]();

@@ -3,7 +3,7 @@
 import * as api from './api.js';
 import { Camera } from './camera.js';
 import { drawGallery } from './gallery.js';
-import { inside, radians, wrapped } from './geometry.js';
+import { inside, radians, shiftedWalls, wrapped } from './geometry.js';
 import { Hand } from './hand.js';
 import { bindKeys, fillHelp } from './keys.js';
 import { LogPlayer } from './log.js';
@@ -403,6 +403,11 @@ function dragWall(from, to, isDone) {
   draw();
 }
 
+function shiftWall(by) {
+  if (!data.answer?.scan || inLog() || inDrive()) return;
+  change({ walls: pack(shiftedWalls(unpack(state.walls), data.answer.scan, pose(), by)) });
+}
+
 const act = {
   pose: () => (inLog() || state.step > 0 ? null : { x: state.x, y: state.y, deg: state.deg }),
   move: (x, y) => !inLog() && change({ x, y }),
@@ -428,6 +433,8 @@ const keys = {
     if (h) change({ x: h.x, y: h.y, deg: wrapped((h.phi * 180) / Math.PI), row: -1 });
   },
   drop: () => drop(state.x + 0.8 * Math.cos(radians(state.deg)), state.y + 0.8 * Math.sin(radians(state.deg))),
+  pushWall: () => shiftWall(0.2),
+  pullWall: () => shiftWall(-0.2),
   tidy,
   drive: () => travel.go(),
   driveBack: () => travel.back(),
