@@ -38,223 +38,235 @@ LastMetresParams drivenMetres() {
   return params;
 }
 
-class Run {
- public:
-  Run(const TravelPlanner& planner, const GlobalLocalizer& localizer, const World& world,
-      const TPose2D& start, const TravelRunParams& params, std::uint64_t seed)
-      : planner_(planner),
-        localizer_(localizer),
-        world_(world),
-        params_(params),
-        tracker_(localizer, trackerParams()),
-        noise_(seed),
-        seed_(seed),
-        truth_(start) {
-    result_.start = start;
-    result_.way = {{start.x, start.y}};
-  }
-
-  TravelRunResult go() {
-    while (!isOver()) drive();
-    finish();
-    return std::move(result_);
-  }
-
- private:
-  /// Lasers of short range see the same in very many places.
-  static HypothesisTrackerParams trackerParams() {
-    HypothesisTrackerParams params;
-    params.max_hypotheses = 100;
-    return params;
-  }
-
-  /// Scans, and decides what that means; plans if it goes on.
-  bool isOver() {
-    constexpr std::size_t kKept = 25;  // scans: enough for the way back out of a dead end
-    scans_.insert(scans_.begin(), {world_.scan(truth_, noise_), odometry_});
-    if (scans_.size() > kKept) scans_.pop_back();
-    const TrackingState& state = follow(scans_.front().scan);
-    ++result_.scans;
-    answer_ = conclude(state);
-    looked_.push_back(odometry_);
-    if (result_.scans == 1) {
-      result_.first_scan = scans_.front().scan;
-      result_.is_ambiguous_at_start = !is_anchored_ || state.status != LocalizationStatus::unique;
-    }
-    result_.steps.push_back({truth_, living_, {}, result_.travelled});
-    if (answer_) {
-      const bool is_right = isRight(*answer_, truth_, params_.tolerance);
-      result_.outcome = is_right ? TravelOutcome::localized : TravelOutcome::wrong;
-      return true;
-    }
-    if (result_.scans >= params_.most_scans || result_.travelled >= params_.most_travel)
-      return true;
-
-    TravelPlan& plan = result_.steps.back().plan;
-    plan = makePlan(state);
-    result_.planning_ms.push_back(plan.planning_ms);
-    if (plan.status == TravelStatus::indistinguishable) {
-      result_.outcome = TravelOutcome::indistinguishable;
-      return true;
-    }
-    // Someone in the way may be gone in the next scan.
-    constexpr int kMostBlocked = 8;
-    const bool moves = plan.status == TravelStatus::go &&
-                       (plan.way.size() > 1 || std::abs(plan.waypoint.phi) > 2.0 * kDegree);
-    blocked_ = moves ? 0 : blocked_ + 1;
-    return blocked_ > kMostBlocked;
-  }
-
-  /// Lasers of short range see the same in so many places that a search cannot list them all. What
-  /// is concluded among some of them is worth nothing: the tracker starts anew with each scan until
-  /// there is one whose list is whole.
-  const TrackingState& follow(const RangeScan& scan) {
-    constexpr double kWhole = 0.97;
-    if (tracker_.state().status == LocalizationStatus::no_match) is_anchored_ = false;
-    if (!is_anchored_) {
-      SearchOptions options;
-      options.max_hypotheses = trackerParams().max_hypotheses;
-      const LocalizationResult alone = localizer_.localize(scan, {}, options);
-      is_anchored_ = alone.listed >= kWhole && alone.hypotheses.size() < options.max_hypotheses;
-      tracker_.reset();
-    }
-    return tracker_.update(scan);
-  }
-
-  /// The pose that the robot is sure of: the tracker's, if the scans of the last metres, searched
-  /// anew and judged together, have the same answer. If they have another, the tracker starts anew:
-  /// it followed what was left of a list without the truth. If they have several, those are what
-  /// is to be told apart.
-  std::optional<TPose2D> conclude(const TrackingState& state) {
-    const ScanSet drive = last_metres_.add({scans_.front().scan}, since_scan_);
-    since_scan_ = Motion();
-    living_ = state.hypotheses;
-    if (!is_anchored_ || state.status != LocalizationStatus::unique) return std::nullopt;
-    const TPose2D& first = state.hypotheses.front().pose_map_robot;
-    if (drive.single() != nullptr) return first;
-    constexpr double kLikely = 0.8;
-    const LocalizationResult all = localizer_.localize(drive);
-    double near = 0.0;
-    for (const Hypothesis& hypothesis : all.hypotheses) {
-      if (isNear(hypothesis.pose_map_robot, first)) near += hypothesis.weight;
-    }
-    if (near >= kLikely && all.status == LocalizationStatus::unique) return first;
-    living_.clear();
-    for (const Hypothesis& hypothesis : all.hypotheses) {
-      living_.push_back({next_id_++, hypothesis.pose_map_robot, hypothesis.covariance,
-                         hypothesis.weight, hypothesis.cost});
-    }
-    is_anchored_ = near > 1.0 - kLikely;
-    return std::nullopt;
-  }
-
-  TravelPlan makePlan(const TrackingState& state) {
-    TravelSituation situation;
-    for (const TrackedHypothesis& tracked : living_) {
-      Hypothesis hypothesis;
-      hypothesis.pose_map_robot = tracked.pose_map_robot;
-      hypothesis.covariance = tracked.covariance;
-      hypothesis.weight = tracked.weight;
-      hypothesis.cost = tracked.cost;
-      situation.hypotheses.push_back(hypothesis);
-    }
-    // Maps tell where it is free while there are hypotheses to ask; else what was seen before.
-    constexpr std::size_t kRecent = 3;
-    const bool knows_enough = is_anchored_ && state.status != LocalizationStatus::no_match &&
-                              state.status != LocalizationStatus::too_few_beams;
-    for (const PlacedScan& placed : scans_) {
-      if (knows_enough && situation.scans.size() == kRecent) break;
-      situation.scans.push_back({placed.scan, seenFrom(odometry_, placed.pose)});
-    }
-    for (const TPose2D& before : looked_) situation.looked.push_back(seenFrom(odometry_, before));
-    situation.most_distance = params_.most_travel - result_.travelled;
-    situation.recent_scans = kRecent;
-    situation.seed = seed_ * 1000 + result_.scans;
-    if (!knows_enough) situation.hypotheses.clear();
-    TravelPlan plan = knows_enough ? planner_.plan(situation) : planner_.explore(situation);
-    if (plan.status != TravelStatus::decided) return plan;
-    return planner_.explore(situation);
-  }
-
-  void drive() {
-    const TravelPlan& plan = result_.steps.back().plan;
-    if (plan.status != TravelStatus::go) return;
-    const TPose2D before = odometry_;
-    Motion measured;
-    TPose2D at(0, 0, 0);  // of the way, seen from where it starts
-    for (std::size_t i = 1; i < plan.way.size(); ++i) {
-      const TPoint2D along = plan.way[i] - TPoint2D(at.x, at.y);
-      const double heading = std::atan2(along.y, along.x);
-      measured = measured + move({0, 0, std::remainder(heading - at.phi, kTwoPi)});
-      measured = measured + move({along.norm(), 0, 0});
-      at = {plan.way[i].x, plan.way[i].y, heading};
-    }
-    measured = measured + move({0, 0, std::remainder(plan.waypoint.phi - at.phi, kTwoPi)});
-    tracker_.move(measured);
-    since_scan_ = measured;
-    odometry_ = compose(before, measured.pose_before_after);
-  }
-
-  /// One turn or straight piece, as it is measured; the truth goes astray.
-  Motion move(const TPose2D& told) {
-    const double length = std::hypot(told.x, told.y);
-    const MotionNoise& with = params_.odometry;
-    const double along = with.position_per_metre * length * noise_.normal();
-    const double across = with.position_per_metre * length * noise_.normal();
-    const double turn =
-        (with.heading_per_metre * length + with.heading_per_radian * std::abs(told.phi)) *
-        noise_.normal();
-    const TPose2D start = truth_;
-    const TPose2D end = compose(start, {told.x + along, told.y + across, told.phi + turn});
-    if (length > 0.0) {
-      const auto steps = static_cast<int>(std::ceil(length / 0.02));
-      bool touches = false;
-      for (int k = 1; k <= steps; ++k) {
-        const double share = static_cast<double>(k) / steps;
-        touches = touches || world_.clearance({start.x + share * (end.x - start.x),
-                                               start.y + share * (end.y - start.y)}) <
-                                 planner_.params().safe.robot_radius;
-      }
-      result_.collisions += touches ? 1 : 0;
-      result_.travelled += std::hypot(end.x - start.x, end.y - start.y);
-      result_.way.emplace_back(end.x, end.y);
-    }
-    truth_ = end;
-    return measuredMotion(told, params_.odometry);
-  }
-
-  void finish() {
-    const std::vector<TrackedHypothesis>& left = living_;
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    result_.error_m = result_.error_rad = nan;
-    if (left.empty() && !answer_) return;
-    const TPose2D& first = answer_ ? *answer_ : left.front().pose_map_robot;
-    result_.error_m = std::hypot(first.x - truth_.x, first.y - truth_.y);
-    result_.error_rad = angleBetween(first.phi, truth_.phi);
-  }
-
-  const TravelPlanner& planner_;
-  const GlobalLocalizer& localizer_;
-  const World& world_;
-  const TravelRunParams& params_;
-  HypothesisTracker tracker_;
-  Random noise_;
-  std::uint64_t seed_;
-  TPose2D truth_;
-  TPose2D odometry_{0, 0, 0};      ///< as measured, from the start
-  std::vector<PlacedScan> scans_;  ///< the last first, placed by odometry
-  std::vector<TPose2D> looked_;    ///< by odometry
-  ScanAccumulator last_metres_{drivenMetres()};
-  Motion since_scan_;
-  std::optional<TPose2D> answer_;
-  std::vector<TrackedHypothesis> living_;  ///< what is planned for
-  std::uint64_t next_id_ = 1'000'000'000;  ///< apart from the tracker's
-  bool is_anchored_ = false;               ///< the tracker began with a whole list
-  int blocked_ = 0;
-  TravelRunResult result_;
-};
+/// Lasers of short range see the same in very many places.
+HypothesisTrackerParams trackerParams() {
+  HypothesisTrackerParams params;
+  params.max_hypotheses = 100;
+  return params;
+}
 
 }  // namespace
+
+TravelRun::TravelRun(const TravelPlanner& planner, const GlobalLocalizer& localizer,
+                     const World& world, const TPose2D& start, const TravelRunParams& params,
+                     std::uint64_t seed)
+    : planner_(planner),
+      localizer_(localizer),
+      world_(world),
+      params_(params),
+      tracker_(localizer, trackerParams(), params.prior),
+      noise_(seed),
+      seed_(seed),
+      truth_(start),
+      last_metres_(drivenMetres()) {
+  result_.start = start;
+  result_.way = {{start.x, start.y}};
+}
+
+void TravelRun::look() {
+  constexpr std::size_t kKept = 25;  // scans: enough for the way back out of a dead end
+  scans_.insert(scans_.begin(), {world_.scan(truth_, noise_), odometry_});
+  if (scans_.size() > kKept) scans_.pop_back();
+  const TrackingState& state = follow(scans_.front().scan);
+  ++result_.scans;
+  answer_ = conclude(state);
+  looked_.push_back(odometry_);
+  if (result_.scans == 1) {
+    result_.first_scan = scans_.front().scan;
+    result_.is_ambiguous_at_start = !is_anchored_ || state.status != LocalizationStatus::unique;
+  }
+  result_.steps.push_back({truth_, living_, {}, result_.travelled});
+  measureError();
+  decide(state);
+}
+
+void TravelRun::decide(const TrackingState& state) {
+  if (answer_) {
+    const bool is_right = isRight(*answer_, truth_, params_.tolerance);
+    result_.outcome = is_right ? TravelOutcome::localized : TravelOutcome::wrong;
+    is_over_ = true;
+    return;
+  }
+  if (result_.scans >= params_.most_scans || result_.travelled >= params_.most_travel) {
+    is_over_ = true;
+    return;
+  }
+  situation_ = situationOf(state);
+  TravelPlan& plan = result_.steps.back().plan;
+  plan = makePlan();
+  result_.planning_ms.push_back(plan.planning_ms);
+  if (plan.status == TravelStatus::indistinguishable) {
+    result_.outcome = TravelOutcome::indistinguishable;
+    is_over_ = true;
+    return;
+  }
+  // Someone in the way may be gone in the next scan.
+  constexpr int kMostBlocked = 8;
+  const bool moves = plan.status == TravelStatus::go &&
+                     (plan.way.size() > 1 || std::abs(plan.waypoint.phi) > 2.0 * kDegree);
+  blocked_ = moves ? 0 : blocked_ + 1;
+  is_over_ = blocked_ > kMostBlocked;
+}
+
+LocalizationStatus TravelRun::status() const {
+  if (answer_) return LocalizationStatus::unique;
+  const LocalizationStatus tracked = tracker_.state().status;
+  return tracked == LocalizationStatus::unique ? LocalizationStatus::ambiguous : tracked;
+}
+
+/// What was known of the start, carried on by the wheels and three standard deviations of theirs.
+PosePrior TravelRun::priorNow() const {
+  PosePrior prior = params_.prior;
+  if (prior.compass) {
+    const MotionNoise& noise = params_.odometry;
+    const double lost =
+        noise.heading_per_metre * result_.travelled + noise.heading_per_radian * turned_;
+    prior.compass->heading += odometry_.phi;
+    prior.compass->tolerance = std::min(kPi, prior.compass->tolerance + 3.0 * lost);
+  }
+  if (prior.near) {
+    prior.near->radius += (1.0 + 3.0 * params_.odometry.position_per_metre) * result_.travelled;
+  }
+  return prior;
+}
+
+/// Lasers of short range see the same in so many places that a search cannot list them all. What
+/// is concluded among some of them is worth nothing: the tracker starts anew with each scan until
+/// there is one whose list is whole.
+const TrackingState& TravelRun::follow(const RangeScan& scan) {
+  constexpr double kWhole = 0.97;
+  if (tracker_.state().status == LocalizationStatus::no_match) is_anchored_ = false;
+  if (!is_anchored_) {
+    SearchOptions options;
+    options.max_hypotheses = trackerParams().max_hypotheses;
+    const LocalizationResult alone = localizer_.localize(scan, priorNow(), options);
+    is_anchored_ = alone.listed >= kWhole && alone.hypotheses.size() < options.max_hypotheses;
+    tracker_.reset(priorNow());
+  }
+  return tracker_.update(scan);
+}
+
+/// The pose that the robot is sure of: the tracker's, if the scans of the last metres, searched
+/// anew and judged together, have the same answer. If they have another, the tracker starts anew:
+/// it followed what was left of a list without the truth. If they have several, those are what
+/// is to be told apart.
+std::optional<TPose2D> TravelRun::conclude(const TrackingState& state) {
+  const ScanSet drive = last_metres_.add({scans_.front().scan}, since_scan_);
+  since_scan_ = Motion();
+  living_ = state.hypotheses;
+  if (!is_anchored_ || state.status != LocalizationStatus::unique) return std::nullopt;
+  const TPose2D& first = state.hypotheses.front().pose_map_robot;
+  if (drive.single() != nullptr) return first;
+  constexpr double kLikely = 0.8;
+  const LocalizationResult all = localizer_.localize(drive, priorNow());
+  double near = 0.0;
+  for (const Hypothesis& hypothesis : all.hypotheses) {
+    if (isNear(hypothesis.pose_map_robot, first)) near += hypothesis.weight;
+  }
+  if (near >= kLikely && all.status == LocalizationStatus::unique) return first;
+  living_.clear();
+  for (const Hypothesis& hypothesis : all.hypotheses) {
+    living_.push_back({next_id_++, hypothesis.pose_map_robot, hypothesis.covariance,
+                       hypothesis.weight, hypothesis.cost});
+  }
+  is_anchored_ = near > 1.0 - kLikely;
+  return std::nullopt;
+}
+
+bool TravelRun::knowsEnough(const TrackingState& state) const {
+  return is_anchored_ && state.status != LocalizationStatus::no_match &&
+         state.status != LocalizationStatus::too_few_beams;
+}
+
+TravelSituation TravelRun::situationOf(const TrackingState& state) const {
+  TravelSituation situation;
+  // Maps tell where it is free while there are hypotheses to ask; else what was seen before.
+  constexpr std::size_t kRecent = 3;
+  const bool knows_enough = knowsEnough(state);
+  for (const TrackedHypothesis& tracked : living_) {
+    if (!knows_enough) break;
+    Hypothesis hypothesis;
+    hypothesis.pose_map_robot = tracked.pose_map_robot;
+    hypothesis.covariance = tracked.covariance;
+    hypothesis.weight = tracked.weight;
+    hypothesis.cost = tracked.cost;
+    situation.hypotheses.push_back(hypothesis);
+  }
+  for (const PlacedScan& placed : scans_) {
+    if (knows_enough && situation.scans.size() == kRecent) break;
+    situation.scans.push_back({placed.scan, seenFrom(odometry_, placed.pose)});
+  }
+  for (const TPose2D& before : looked_) situation.looked.push_back(seenFrom(odometry_, before));
+  situation.most_distance = params_.most_travel - result_.travelled;
+  situation.recent_scans = kRecent;
+  situation.seed = seed_ * 1000 + result_.scans;
+  return situation;
+}
+
+TravelPlan TravelRun::makePlan() const {
+  if (!knowsEnough(tracker_.state())) return planner_.explore(situation_);
+  TravelPlan plan = planner_.plan(situation_);
+  if (plan.status != TravelStatus::decided) return plan;
+  return planner_.explore(situation_);
+}
+
+void TravelRun::drive() {
+  if (is_over_ || result_.steps.empty()) return;
+  const TravelPlan& plan = result_.steps.back().plan;
+  if (plan.status != TravelStatus::go) return;
+  const TPose2D before = odometry_;
+  Motion measured;
+  TPose2D at(0, 0, 0);  // of the way, seen from where it starts
+  for (std::size_t i = 1; i < plan.way.size(); ++i) {
+    const TPoint2D along = plan.way[i] - TPoint2D(at.x, at.y);
+    const double heading = std::atan2(along.y, along.x);
+    measured = measured + move({0, 0, std::remainder(heading - at.phi, kTwoPi)});
+    measured = measured + move({along.norm(), 0, 0});
+    at = {plan.way[i].x, plan.way[i].y, heading};
+  }
+  measured = measured + move({0, 0, std::remainder(plan.waypoint.phi - at.phi, kTwoPi)});
+  tracker_.move(measured);
+  since_scan_ = measured;
+  odometry_ = compose(before, measured.pose_before_after);
+}
+
+/// One turn or straight piece, as it is measured; the truth goes astray.
+Motion TravelRun::move(const TPose2D& told) {
+  const double length = std::hypot(told.x, told.y);
+  turned_ += std::abs(told.phi);
+  const MotionNoise& with = params_.odometry;
+  const double along = with.position_per_metre * length * noise_.normal();
+  const double across = with.position_per_metre * length * noise_.normal();
+  const double turn =
+      (with.heading_per_metre * length + with.heading_per_radian * std::abs(told.phi)) *
+      noise_.normal();
+  const TPose2D start = truth_;
+  const TPose2D end = compose(start, {told.x + along, told.y + across, told.phi + turn});
+  if (length > 0.0) {
+    const auto steps = static_cast<int>(std::ceil(length / 0.02));
+    bool touches = false;
+    for (int k = 1; k <= steps; ++k) {
+      const double share = static_cast<double>(k) / steps;
+      touches = touches || world_.clearance({start.x + share * (end.x - start.x),
+                                             start.y + share * (end.y - start.y)}) <
+                               planner_.params().safe.robot_radius;
+    }
+    result_.collisions += touches ? 1 : 0;
+    result_.travelled += std::hypot(end.x - start.x, end.y - start.y);
+    result_.way.emplace_back(end.x, end.y);
+  }
+  truth_ = end;
+  return measuredMotion(told, params_.odometry);
+}
+
+void TravelRun::measureError() {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  result_.error_m = result_.error_rad = nan;
+  if (living_.empty() && !answer_) return;
+  const TPose2D& first = answer_ ? *answer_ : living_.front().pose_map_robot;
+  result_.error_m = std::hypot(first.x - truth_.x, first.y - truth_.y);
+  result_.error_rad = angleBetween(first.phi, truth_.phi);
+}
 
 const char* toString(TravelOutcome outcome) {
   switch (outcome) {
@@ -273,7 +285,13 @@ const char* toString(TravelOutcome outcome) {
 TravelRunResult travel(const TravelPlanner& planner, const GlobalLocalizer& localizer,
                        const World& world, const TPose2D& start, const TravelRunParams& params,
                        std::uint64_t seed) {
-  return Run(planner, localizer, world, start, params, seed).go();
+  TravelRun run(planner, localizer, world, start, params, seed);
+  run.look();
+  while (!run.isOver()) {
+    run.drive();
+    run.look();
+  }
+  return run.result();
 }
 
 }  // namespace mrpt_polyloc::apps

@@ -2,7 +2,10 @@
 
 #include "World.h"
 #include <mrpt_polyloc/evaluation/Summary.h>
+#include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/scan/Motion.h>
+#include <mrpt_polyloc/localization/scan/PosePrior.h>
+#include <mrpt_polyloc/localization/scan/ScanSet.h>
 #include <mrpt_polyloc/travel/HypothesisTracker.h>
 #include <mrpt_polyloc/travel/TravelPlanner.h>
 
@@ -10,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace mrpt_polyloc::apps {
@@ -20,6 +24,7 @@ struct TravelRunParams {
   std::size_t most_scans = 200;   ///< ... or took so many scans
   Tolerance tolerance;            ///< what is right
   double start_clearance = 0.05;  ///< of the robot's rim to everything at the start [m]
+  PosePrior prior;                ///< what the robot knows of where it starts
 };
 
 enum class TravelOutcome {
@@ -57,6 +62,67 @@ struct TravelRunResult {
 /// One robot in a closed loop: scan, tracker, planner, drive, until it knows where it is, knows
 /// that it cannot, or has had enough. Its wheels measure what they were told to do; the noise is in
 /// what the robot does. The same world, start and seed give the same run.
+///
+/// Step by step: look(), drive(), look() ... until isOver().
+class TravelRun {
+ public:
+  /// Keeps the references.
+  TravelRun(const TravelPlanner& planner, const GlobalLocalizer& localizer, const World& world,
+            const mrpt::math::TPose2D& start, const TravelRunParams& params, std::uint64_t seed);
+
+  /// Scans, and decides what that means; plans if it goes on. Adds a step to the result.
+  void look();
+  /// Drives to the waypoint of the last plan, if there is one.
+  void drive();
+  bool isOver() const { return is_over_; }
+
+  /// So far; its outcome counts once it is over.
+  const TravelRunResult& result() const { return result_; }
+  const RangeScan& scan() const { return scans_.front().scan; }  ///< the last one
+  /// What is known now: `unique` only where the robot is sure, see look().
+  LocalizationStatus status() const;
+  double noneProbability() const { return tracker_.state().none_probability; }
+  /// What the last plan was made for.
+  const TravelSituation& situation() const { return situation_; }
+  /// Where the wheels believe to be, seen from the start.
+  const mrpt::math::TPose2D& odometry() const { return odometry_; }
+
+ private:
+  void decide(const TrackingState& state);
+  PosePrior priorNow() const;
+  const TrackingState& follow(const RangeScan& scan);
+  std::optional<mrpt::math::TPose2D> conclude(const TrackingState& state);
+  bool knowsEnough(const TrackingState& state) const;
+  TravelSituation situationOf(const TrackingState& state) const;
+  TravelPlan makePlan() const;
+  Motion move(const mrpt::math::TPose2D& told);
+  void measureError();
+
+  const TravelPlanner& planner_;
+  const GlobalLocalizer& localizer_;
+  const World& world_;
+  TravelRunParams params_;
+  HypothesisTracker tracker_;
+  Random noise_;
+  std::uint64_t seed_;
+  mrpt::math::TPose2D truth_;
+  mrpt::math::TPose2D odometry_{0, 0, 0};    ///< as measured, from the start
+  std::vector<PlacedScan> scans_;            ///< the last first, placed by odometry
+  std::vector<mrpt::math::TPose2D> looked_;  ///< by odometry
+  ScanAccumulator last_metres_;
+  Motion since_scan_;
+  std::optional<mrpt::math::TPose2D> answer_;
+  std::vector<TrackedHypothesis> living_;  ///< what is planned for
+  std::uint64_t next_id_ = 1'000'000'000;  ///< apart from the tracker's
+  bool is_anchored_ = false;               ///< the tracker began with a whole list
+  bool is_over_ = false;
+  double turned_ = 0.0;  ///< as told, all turns [rad]
+  int blocked_ = 0;
+  TravelSituation situation_;
+  TravelRunResult result_;
+};
+
+/// Such a robot to its end.
 TravelRunResult travel(const TravelPlanner& planner, const GlobalLocalizer& localizer,
                        const World& world, const mrpt::math::TPose2D& start,
                        const TravelRunParams& params, std::uint64_t seed);

@@ -73,6 +73,17 @@ World::World(const PolygonMap& map, const SimulatorParams& laser, std::size_t cl
       // What stands in free space stops beams as walls beyond do.
       walls_(PolygonMap(map.components(), joined(map.wallsBeyond(), boxes_))) {}
 
+World::World(const PolygonMap& map, const SimulatorParams& laser, const RoomChanges& changes,
+             double robot_radius)
+    : map_(map), laser_(besideRobot(laser, robot_radius)), walls_(map, changes) {}
+
+std::string World::whyNoRoom(const TPoint2D& place, double radius) const {
+  if (!map_.contains(place)) return "it is not in the free space of the map";
+  const double room = clearance(place);
+  if (room >= radius) return {};
+  return "the robot would touch a wall: it is " + std::to_string(room) + " m away";
+}
+
 RangeScan World::scan(const mrpt::math::TPose2D& pose, Random& random) const {
   return toRangeScan(simulateScan(walls_, laser_, pose, 0.0, random));
 }

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace mrpt_polyloc::apps {
@@ -24,6 +25,14 @@ class World {
   /// \throws InvalidParamsError; InvalidMapError if there is no room for the boxes
   World(const PolygonMap& map, const SimulatorParams& laser, std::size_t clutter,
         double robot_radius, std::uint64_t seed);
+
+  /// \param changes what stands elsewhere than in the map, and stops beams and robots too
+  /// \throws InvalidParamsError
+  World(const PolygonMap& map, const SimulatorParams& laser, const RoomChanges& changes,
+        double robot_radius);
+
+  /// Why a robot of a radius [m] cannot stand at a place; empty if it can.
+  std::string whyNoRoom(const TPoint2D& place, double radius) const;
 
   /// A scan from a pose, the sensor at the robot's origin.
   RangeScan scan(const mrpt::math::TPose2D& pose, Random& random) const;

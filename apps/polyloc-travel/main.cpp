@@ -6,11 +6,14 @@
 #include "../common/map_input.h"
 #include "TravelOptions.h"
 #include "TravelRun.h"
+#include "looks_input.h"
 #include "next_waypoint.h"
 #include "travel_oracles.h"
 #include "travel_picture.h"
 #include "travel_report.h"
 #include <mrpt_polyloc/base/errors.h>
+
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <iostream>
@@ -25,13 +28,8 @@ using namespace mrpt_polyloc::apps;
 
 /// \throws InvalidParamsError for a place at which the robot would touch something
 void requireRoom(const World& world, const mrpt::math::TPose2D& start, double radius) {
-  const bool is_free = world.map().contains({start.x, start.y});
-  const double clearance = world.clearance({start.x, start.y});
-  if (is_free && clearance >= radius) return;
-  throw InvalidParamsError("--start: " +
-                           std::string(is_free ? "the robot would touch a wall: it is " +
-                                                     std::to_string(clearance) + " m away"
-                                               : "it is not in the free space of the map"));
+  const std::string why = world.whyNoRoom({start.x, start.y}, radius);
+  if (!why.empty()) throw InvalidParamsError("--start: " + why);
 }
 
 int simulate(const Program& program, const TravelOptions& options) {
@@ -79,6 +77,19 @@ int simulate(const Program& program, const TravelOptions& options) {
   return kDone;
 }
 
+int plan(const Program& program, const TravelOptions& options) {
+  const std::vector<Look> looks = loadLooks(program, options);
+  const MapIndex::Ptr index =
+      MapIndex::build(loadMapWithWarnings(program, options.map, options.scale).map);
+  NextWaypointParams params;
+  params.odometry = options.run.odometry;
+  params.most_distance = options.run.most_travel;
+  params.seed = options.seed;
+  const TravelPlanner planner(index, options.planner);
+  std::cout << nextWaypoint(planner, GlobalLocalizer(index), looks, params).dump(2) << '\n';
+  return kDone;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -89,8 +100,6 @@ int main(int argc, char** argv) {
   addOptions(program.options(), options);
   return program.run(argc, argv, [&]() -> int {
     finishOptions(options);
-    if (!options.plans) return simulate(program, options);
-    std::cout << nextWaypoint(program, options).dump(2) << '\n';
-    return kDone;
+    return options.plans ? plan(program, options) : simulate(program, options);
   });
 }

@@ -2,6 +2,7 @@
 
 #include "../common/SvgCanvas.h"
 #include "../common/map_picture.h"
+#include "safe_set_outline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,27 +19,13 @@ TPoint2D placedAt(const TPose2D& pose, const TPoint2D& place) {
   return {pose.x + c * place.x - s * place.y, pose.y + s * place.x + c * place.y};
 }
 
-/// The squares of a safe set as rows of boxes, where the robot truly was.
+/// The safe set where the robot truly was.
 void drawSafeSet(SvgCanvas& canvas, const SafeSet& safe, const TPose2D& truth, double square) {
-  std::map<long, std::vector<long>> rows;
-  for (const SafeSet::Place& place : safe.reached()) {
-    rows[std::lround(place.point.y / square)].push_back(std::lround(place.point.x / square));
+  std::vector<std::vector<TPoint2D>> rings = safeSetOutline(safe, square);
+  for (std::vector<TPoint2D>& ring : rings) {
+    for (TPoint2D& corner : ring) corner = placedAt(truth, corner);
   }
-  std::vector<std::vector<TPoint2D>> boxes;
-  for (auto& [row, columns] : rows) {
-    std::sort(columns.begin(), columns.end());
-    for (std::size_t first = 0; first < columns.size();) {
-      std::size_t last = first;
-      while (last + 1 < columns.size() && columns[last + 1] == columns[last] + 1) ++last;
-      const double x0 = (static_cast<double>(columns[first]) - 0.5) * square;
-      const double x1 = (static_cast<double>(columns[last]) + 0.5) * square;
-      const double y0 = (static_cast<double>(row) - 0.5) * square, y1 = y0 + square;
-      boxes.push_back({placedAt(truth, {x0, y0}), placedAt(truth, {x1, y0}),
-                       placedAt(truth, {x1, y1}), placedAt(truth, {x0, y1})});
-      first = last + 1;
-    }
-  }
-  canvas.area(boxes, "safe");
+  canvas.area(rings, "safe");
   canvas.legend(SvgCanvas::Sample::patch, "safe", "safe at the start");
 }
 

@@ -80,7 +80,7 @@ MapIndex::Ptr MapSession::index(const std::atomic<bool>& cancelled) const {
   return index_;
 }
 
-LocalizationResult MapSession::localize(const RangeScan& scan, const SearchRequest& search,
+LocalizationResult MapSession::localize(const ScanSet& scans, const SearchRequest& search,
                                         const std::atomic<bool>& cancelled) const {
   SearchOptions options;
   options.max_hypotheses = search.max_hypotheses;
@@ -93,15 +93,22 @@ LocalizationResult MapSession::localize(const RangeScan& scan, const SearchReque
                    "options.method: exact searches for a polygon (member polygon), not for a scan");
   }
   const MapIndex::Ptr index = this->index(cancelled);
+  const RangeScan* const single = scans.single();
   if (search.method == Method::certified) {
-    return GlobalLocalizer(index).localize(scan, search.prior, options);
+    const GlobalLocalizer localizer(index);
+    return single != nullptr ? localizer.localize(*single, search.prior, options)
+                             : localizer.localize(scans, search.prior, options);
+  }
+  if (single == nullptr) {
+    throw ApiError(400, "bad_request", "options.method",
+                   "options.method: cells searches for one scan, not for several");
   }
   const auto& cell_localizer = cell_localizer_.get([&] {
     CellLocalizerParams params;
     params.max_cells = kMostCells;
     return std::make_unique<CellLocalizer>(index, params);
   });
-  return cell_localizer->localize(scan, search.prior, options);
+  return cell_localizer->localize(*single, search.prior, options);
 }
 
 LocalizationResult MapSession::localizeExact(const std::vector<TPoint2D>& view,
@@ -110,6 +117,19 @@ LocalizationResult MapSession::localizeExact(const std::vector<TPoint2D>& view,
       exact_localizer_.get([&] { return std::make_unique<ExactLocalizer>(map_); });
   return resultOf(localizer->localize(view, search.prior), localizer->tolerance(),
                   search.max_hypotheses);
+}
+
+std::shared_ptr<const TravelPlanner> MapSession::planner(const MapIndex::Ptr& index,
+                                                         const TravelPlannerParams& params) const {
+  const std::lock_guard<std::mutex> lock(planner_mutex_);
+  const auto isSame = [&](const TravelPlannerParams& other) {
+    return other.strategy == params.strategy && other.max_range == params.max_range &&
+           other.safe.robot_radius == params.safe.robot_radius;
+  };
+  if (!planner_ || !isSame(planner_->params())) {
+    planner_ = std::make_shared<const TravelPlanner>(index, params);
+  }
+  return planner_;
 }
 
 const Triangulation& MapSession::triangulation() const {

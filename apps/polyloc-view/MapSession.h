@@ -8,6 +8,7 @@
 #include <mrpt_polyloc/localization/CellLocalizer.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/exact/ExactLocalizer.h>
+#include <mrpt_polyloc/travel/TravelPlanner.h>
 #include <mrpt_polyloc/visibility/VisibilityCells.h>
 
 #include <atomic>
@@ -49,11 +50,17 @@ class MapSession {
 
   /// \throws ApiError: see index(); method exact, for which there is localizeExact();
   /// CellBudgetError
-  LocalizationResult localize(const RangeScan& scan, const SearchRequest& search,
+  LocalizationResult localize(const ScanSet& scans, const SearchRequest& search,
                               const std::atomic<bool>& cancelled) const;
   /// \param view what is seen, in the robot's frame [m]
   LocalizationResult localizeExact(const std::vector<TPoint2D>& view,
                                    const SearchRequest& search) const;
+
+  /// A planner with such parameters: the last one if they are the same, for each makes a table of
+  /// the map's clearances. Only strategy, robot_radius and max_range may differ from the default.
+  /// \throws InvalidParamsError
+  std::shared_ptr<const TravelPlanner> planner(const MapIndex::Ptr& index,
+                                               const TravelPlannerParams& params) const;
 
   const Triangulation& triangulation() const;
   const WallSegments& walls() const;
@@ -73,6 +80,9 @@ class MapSession {
   std::string index_error_;
   std::atomic<double> progress_{0.0};
   std::atomic<bool> is_ending_{false};
+
+  mutable std::mutex planner_mutex_;
+  mutable std::shared_ptr<const TravelPlanner> planner_;  ///< the last one
 
   Lazy<Triangulation> triangulation_;
   Lazy<WallSegments> walls_;

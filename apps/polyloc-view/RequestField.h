@@ -41,6 +41,8 @@ class RequestField {
   std::uint64_t count(std::uint64_t min, std::uint64_t max) const;
   bool boolean() const;
   std::string text(std::size_t most) const;
+  /// The value as JSON: equal values, equal texts.
+  std::string asJson() const { return value_.dump(-1, ' ', false, kReplace); }
 
   /// The elements of an array of at most so many.
   std::size_t arraySize(std::size_t most) const;
@@ -51,6 +53,9 @@ class RequestField {
 
  private:
   std::string placeOf(const char* name) const;
+
+  /// Text from outside may be no UTF-8.
+  static constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
 
   const nlohmann::json& value_;
   std::string place_;

@@ -247,7 +247,7 @@ void ViewServer::addAnswers() {
   const std::pair<const char*, Answer> answers[] = {
       {"localize", answerLocalize}, {"simulate", answerSimulate}, {"compare", answerCompare},
       {"view", answerView},         {"leaf", answerLeaf},         {"scan", answerScan},
-      {"outcomes", answerOutcomes}};
+      {"outcomes", answerOutcomes}, {"travel", answerTravel},     {"plan", answerPlan}};
   for (const auto& [name, give] : answers) {
     server_->Post(root + name,
                   [this, give = give](const httplib::Request& request, httplib::Response& response,

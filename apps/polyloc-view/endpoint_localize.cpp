@@ -6,7 +6,8 @@ namespace mrpt_polyloc::apps {
 
 Json answerLocalize(const Services& services, const RequestField& request, Jobs::Ticket& ticket) {
   request.allowOnly({"ranges", "start_angle", "angle_step", "max_range", "min_range", "bearings",
-                     "kinds", "sensor", "stamp", "label", "polygon", "prior", "options", "job"});
+                     "kinds", "sensor", "stamp", "label", "scans", "odometry", "polygon", "prior",
+                     "options", "job"});
   const SearchRequest search = readSearch(request);
   if (request.has("polygon")) {
     if (search.method != Method::exact) {
@@ -17,7 +18,8 @@ Json answerLocalize(const Services& services, const RequestField& request, Jobs:
     ticket.enter();
     return searchAnswer(services, view, search);
   }
-  return searchAnswer(services, readScan(request), search, ticket);
+  if (request.has("scans")) return searchAnswer(services, readScanSet(request), search, ticket);
+  return searchAnswer(services, ScanSet(readScan(request)), search, ticket);
 }
 
 }  // namespace mrpt_polyloc::apps

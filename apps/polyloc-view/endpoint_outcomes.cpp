@@ -34,7 +34,7 @@ Json answerOutcomes(const Services& services, const RequestField& request, Jobs:
   std::size_t row = first;
   while (row < last && miss.is_null() && (row == first || watch.seconds() < kSeconds)) {
     const LocalizationResult result =
-        services.session.localize(log.scans().scan(row), search, ticket.cancelled());
+        services.session.localize(ScanSet(log.scans().scan(row)), search, ticket.cancelled());
     ticket.check();
     const std::string outcome = log.outcome(row, result);
     Json one = {{"row", row}, {"outcome", outcome}, {"pose", nullptr}};

@@ -24,7 +24,7 @@ Json answerScan(const Services& services, const RequestField& request, Jobs::Tic
   const auto search_field = request.find("search");
   if (!search_field) return json;
   search_field->allowOnly({"prior", "options"});
-  json["result"] = searchAnswer(services, scan, readSearch(*search_field), ticket);
+  json["result"] = searchAnswer(services, ScanSet(scan), readSearch(*search_field), ticket);
   return json;
 }
 

@@ -57,7 +57,7 @@ Json answerSimulate(const Services& services, const RequestField& request, Jobs:
     json["polygon"] = flatPoints(view);
     json["result"] = searchAnswer(services, view, search);
   } else if (search_field) {
-    json["result"] = searchAnswer(services, scan, search, ticket);
+    json["result"] = searchAnswer(services, ScanSet(scan), search, ticket);
   }
   return json;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "DriveStore.h"
 #include "Jobs.h"
 #include "LogSession.h"
 #include "MapSession.h"
@@ -16,6 +17,7 @@ constexpr int kApiVersion = 1;
 
 struct Services {
   const MapSession& session;
+  DriveStore& drives;
   const LogSession* log = nullptr;  ///< if one is looked through
 };
 
@@ -53,6 +55,12 @@ Json answerScan(const Services& services, const RequestField& request, Jobs::Tic
 
 /// What the answers to many scans of the log came to, for half a second's worth of them at most.
 Json answerOutcomes(const Services& services, const RequestField& request, Jobs::Ticket& ticket);
+
+/// A simulated robot that drives until it knows where it is, a step of it.
+Json answerTravel(const Services& services, const RequestField& request, Jobs::Ticket& ticket);
+
+/// Where a real robot is to drive next, from what it has seen.
+Json answerPlan(const Services& services, const RequestField& request, Jobs::Ticket& ticket);
 
 /// \throws ApiError if there is none
 const LogSession& requireLog(const Services& services);

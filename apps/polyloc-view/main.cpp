@@ -128,7 +128,8 @@ int view(const Program& program, const ViewOptions& options) {
   PolygonMap map = loadServedMap(program, options);
   const std::unique_ptr<const LogSession> log = openLog(program, options);
   const MapSession session(std::move(map), name);
-  ViewServer server({session, log.get()}, address);
+  DriveStore drives;
+  ViewServer server({session, drives, log.get()}, address);
   const int port = server.bind(static_cast<int>(options.port));
   const SignalWatch watch(signals, server);
   const std::string host = address.find(':') == std::string::npos ? address : "[" + address + "]";

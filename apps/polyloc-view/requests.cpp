@@ -136,6 +136,18 @@ void readSimulator(const RequestField& field, LaserRequest& request) {
   if (const auto seed = field.find("seed")) request.seed = seed->count(0, 1ULL << 53U);
 }
 
+MotionNoise readOdometry(const RequestField& field) {
+  field.allowOnly({"position_per_metre", "heading_per_metre", "heading_per_radian"});
+  MotionNoise noise;
+  const auto read = [&](const char* name, double& value) {
+    if (const auto share = field.find(name)) value = share->number({0.0, 1.0});
+  };
+  read("position_per_metre", noise.position_per_metre);
+  read("heading_per_metre", noise.heading_per_metre);
+  read("heading_per_radian", noise.heading_per_radian);
+  return noise;
+}
+
 }  // namespace
 
 TPoint2D readPoint(const RequestField& point) {
@@ -179,6 +191,59 @@ SearchRequest readSearch(const RequestField& request) {
 
 RangeScan readScan(const RequestField& request) {
   return request.has("bearings") ? readBeams(request) : readReadings(request);
+}
+
+std::vector<MovedScan> readMovedScans(const RequestField& scans) {
+  const std::size_t count = scans.arraySize(kMostScans);
+  if (count == 0) scans.fail("at least one scan is needed");
+  std::vector<MovedScan> read;
+  std::size_t beams = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const RequestField field = scans.element(i);
+    field.allowOnly({"moved", "ranges", "start_angle", "angle_step", "max_range", "min_range",
+                     "bearings", "kinds", "sensor", "stamp", "label"});
+    std::optional<TPose2D> pose;
+    if (const auto moved = field.find("moved")) {
+      moved->allowOnly({"x", "y", "phi"});
+      pose = readPose(*moved);
+    }
+    read.push_back({pose, readScan(field)});
+    beams += read.back().scan.beams().size();
+    if (beams > kMostBeams) {
+      scans.fail("more than " + std::to_string(kMostBeams) + " beams together");
+    }
+  }
+  return read;
+}
+
+ScanSet readScanSet(const RequestField& request) {
+  const auto wheels = request.find("odometry");
+  const MotionNoise noise = wheels ? readOdometry(*wheels) : MotionNoise{};
+  std::vector<Moment> moments;
+  for (MovedScan& one : readMovedScans(request.member("scans"))) {
+    if (moments.empty() || one.moved) moments.emplace_back();
+    if (one.moved) moments.back().since_before = measuredMotion(*one.moved, noise);
+    moments.back().scans.push_back(std::move(one.scan));
+  }
+  return ScanSet(std::move(moments));
+}
+
+RobotRequest readRobot(const RequestField& request) {
+  RobotRequest robot;
+  const auto field = request.find("robot");
+  if (!field) return robot;
+  field->allowOnly({"radius", "strategy", "max_travel", "odometry"});
+  if (const auto radius = field->find("radius")) {
+    robot.planner.safe.robot_radius = radius->number({0.01, 5.0});
+  }
+  if (const auto strategy = field->find("strategy")) {
+    const auto known = travelStrategyFrom(strategy->text(20));
+    if (!known) strategy->fail("unknown strategy; there is: greedy, nearest, majority, random");
+    robot.planner.strategy = *known;
+  }
+  if (const auto most = field->find("max_travel")) robot.run.most_travel = most->number({0.1, 1e4});
+  if (const auto odometry = field->find("odometry")) robot.run.odometry = readOdometry(*odometry);
+  return robot;
 }
 
 LaserRequest readLaser(const RequestField& request) {

@@ -1,17 +1,21 @@
 #pragma once
 
+#include "../polyloc-travel/TravelRun.h"
 #include "RequestField.h"
 #include <mrpt_polyloc/evaluation/Simulator.h>
 #include <mrpt_polyloc/evaluation/WallSegments.h>
 #include <mrpt_polyloc/localization/scan/PosePrior.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
+#include <mrpt_polyloc/localization/scan/ScanSet.h>
 #include <mrpt_polyloc/localization/search/SearchMetric.h>
+#include <mrpt_polyloc/travel/TravelPlannerParams.h>
 
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +43,20 @@ SearchRequest readSearch(const RequestField& request);
 /// writes them.
 RangeScan readScan(const RequestField& request);
 
+constexpr std::size_t kMostScans = 200;  ///< of a set or a drive
+
+/// One of several scans, with `moved`: the robot seen from where it was at the scan before.
+struct MovedScan {
+  std::optional<mrpt::math::TPose2D> moved;
+  RangeScan scan;
+};
+/// An array of such, at least one; kMostBeams together.
+std::vector<MovedScan> readMovedScans(const RequestField& scans);
+
+/// Scans that belong together: the member `scans`, those without `moved` of the same moment as the
+/// one before, and `odometry`, how far wheels are wrong.
+ScanSet readScanSet(const RequestField& request);
+
 /// `[[x, y], ...]` [m].
 std::vector<mrpt::math::TPoint2D> readPoints(const RequestField& points, std::size_t most);
 
@@ -56,5 +74,16 @@ struct LaserRequest {
   std::uint64_t seed = 1;
 };
 LaserRequest readLaser(const RequestField& request);
+
+/// Beams at most of a robot that drives: each of its steps is kept.
+constexpr std::size_t kMostDrivenBeams = 2000;
+
+/// The member `robot` (radius, strategy, max_travel, odometry: {position_per_metre,
+/// heading_per_metre, heading_per_radian}) of a request about driving.
+struct RobotRequest {
+  TravelPlannerParams planner;
+  TravelRunParams run;
+};
+RobotRequest readRobot(const RequestField& request);
 
 }  // namespace mrpt_polyloc::apps

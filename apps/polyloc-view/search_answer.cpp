@@ -15,12 +15,12 @@ Json finished(const Services& services, const LocalizationResult& result, const 
 
 }  // namespace
 
-Json searchAnswer(const Services& services, const RangeScan& scan, const SearchRequest& search,
+Json searchAnswer(const Services& services, const ScanSet& scans, const SearchRequest& search,
                   Jobs::Ticket& ticket) {
   services.session.index(ticket.cancelled());
   ticket.enter();
   const Stopwatch watch;
-  const LocalizationResult result = services.session.localize(scan, search, ticket.cancelled());
+  const LocalizationResult result = services.session.localize(scans, search, ticket.cancelled());
   ticket.check();
   return finished(services, result, watch);
 }

@@ -70,6 +70,12 @@ void HypothesisTracker::reset() {
   since_search_ = 0.0;
 }
 
+void HypothesisTracker::reset(const PosePrior& prior) {
+  prior.check();
+  prior_ = prior;
+  reset();
+}
+
 void HypothesisTracker::move(const Motion& motion) {
   motion.check();
   since_scan_ = since_scan_ + motion;

@@ -105,6 +105,9 @@ class POLYLOC_EXPORT HypothesisTracker {
 
   /// Forgets all; the next scan is searched.
   void reset();
+  /// The same; what is known of the pose of that scan takes the place of what was known of the
+  /// first. \throws InvalidParamsError
+  void reset(const PosePrior& prior);
 
   const GlobalLocalizer& localizer() const { return localizer_; }
   const HypothesisTrackerParams& params() const { return params_; }

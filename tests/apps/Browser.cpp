@@ -183,6 +183,29 @@ void Browser::drag(const std::vector<std::pair<double, double>>& places) {
   act(json::array({{{"type", "pointer"}, {"id", "mouse"}, {"actions", actions}}}));
 }
 
+void Browser::pinch(double x, double y, double apart, double apart_at_last) {
+  json fingers = json::array();
+  for (const double side : {-0.5, 0.5}) {
+    json actions = json::array();
+    constexpr int kSteps = 4;
+    for (int step = 0; step <= kSteps; ++step) {
+      const double now = apart + (apart_at_last - apart) * step / kSteps;
+      actions.push_back({{"type", "pointerMove"},
+                         {"duration", step == 0 ? 0 : 40},
+                         {"origin", "viewport"},
+                         {"x", static_cast<int>(x + side * now)},
+                         {"y", static_cast<int>(y)}});
+      if (step == 0) actions.push_back({{"type", "pointerDown"}, {"button", 0}});
+    }
+    actions.push_back({{"type", "pointerUp"}, {"button", 0}});
+    fingers.push_back({{"type", "pointer"},
+                       {"id", side < 0 ? "left" : "right"},
+                       {"parameters", {{"pointerType", "touch"}}},
+                       {"actions", actions}});
+  }
+  act(fingers);
+}
+
 void Browser::wheel(double x, double y, int amount) {
   const json scroll = {{"type", "scroll"},         {"x", static_cast<int>(x)},
                        {"y", static_cast<int>(y)}, {"deltaX", 0},

@@ -31,6 +31,8 @@ class Browser {
   /// Presses at the first place, goes through the others, and lets go; in pixels of the page.
   void drag(const std::vector<std::pair<double, double>>& places);
   void click(double x, double y) { drag({{x, y}}); }
+  /// Two fingers beside a place, so far apart [pixels] at first and at last.
+  void pinch(double x, double y, double apart, double apart_at_last);
   void wheel(double x, double y, int amount);
   /// A key as WebDriver writes it, with the key held down meanwhile if one is given.
   void press(const std::string& key, const std::string& held = "");

@@ -119,6 +119,38 @@ TEST_F(ViewApi, LocalizesADriversScanWithASensorOffTheRobot) {
              1.0 - 0.2 * std::sin(heading), heading);
 }
 
+TEST_F(ViewApi, LocalizesScansThatBelongTogether) {
+  // Half a circle ahead and half a circle behind; then a metre on, and a quarter turned.
+  const auto half = [&](double x, double y, double phi) {
+    json request = scanFrom(x, y, phi);
+    request["laser"]["fov"] = kPi;
+    return post("simulate", request).body["scan"];
+  };
+  const json ahead = half(2.0, 1.0, 0.0);
+  json behind = half(2.0, 1.0, kPi);
+  for (json& bearing : behind["bearings"]) bearing = bearing.get<double>() + kPi;
+  const json together = post("localize", {{"scans", {ahead, behind}}}).body;
+  ASSERT_FALSE(together["hypotheses"].empty()) << together;
+  expectPose(together["hypotheses"][0], 2.0, 1.0, 0.0);
+  json later = half(3.0, 1.0, kPi / 2);
+  later["moved"] = {{"x", 1.0}, {"y", 0.0}, {"phi", kPi / 2}};
+  const json drive = post("localize", {{"scans", {ahead, behind, later}}}).body;
+  ASSERT_FALSE(drive["hypotheses"].empty()) << drive;
+  expectPose(drive["hypotheses"][0], 3.0, 1.0, kPi / 2);
+  // One alone is a scan as any other.
+  const json one = post("localize", {{"scans", json::array({ahead})}}).body;
+  EXPECT_EQ(one["hypotheses"], post("localize", ahead).body["hypotheses"]);
+
+  expectRefused(post("localize", {{"scans", json::array()}}), "scans");
+  expectRefused(post("localize", {{"scans", {ahead, 5}}}), "scans[1]");
+  later["moved"] = {{"x", 1.0}};
+  expectRefused(post("localize", {{"scans", {ahead, later}}}), "scans[1].moved.y");
+  expectRefused(post("localize", {{"scans", json::array({ahead})}, {"odometry", {{"wheels", 1}}}}),
+                "odometry.wheels");
+  expectRefused(post("localize", {{"scans", {ahead, behind}}, {"options", {{"method", "cells"}}}}),
+                "options.method");
+}
+
 TEST_F(ViewApi, PriorsAreKept) {
   json request = post("simulate", scanFrom(2.8, 1.0, 0.7)).body["scan"];
   request["prior"] = {{"compass", {{"heading", 0.7 + kPi}, {"tolerance", 0.1}}}};

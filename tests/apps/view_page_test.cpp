@@ -1,7 +1,6 @@
-#include "Browser.h"
-#include "ProgramTest.h"
-#include "ViewProcess.h"
+#include "ViewPage.h"
 #include "pictures.h"
+#include "view_floor.h"
 
 #include <cmath>
 #include <csignal>
@@ -9,8 +8,6 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <random>
-#include <sstream>
 
 /// The page of polyloc-view in a real browser. Skipped, by name, where there is none.
 namespace mrpt_polyloc::test {
@@ -22,52 +19,6 @@ const std::string kSource = POLYLOC_SOURCE_DIR;
 const std::string kNiches = kSource + "/datasets/niches.wkt";
 const std::string kFlat = kSource + "/datasets/flat.wkt";
 const std::string kLeft = "\uE012", kShift = "\uE008", kEnter = "\uE007";
-
-class ViewPage : public ProgramTest {
- protected:
-  void SetUp() override {
-    if (!Browser::missing().empty()) GTEST_SKIP() << Browser::missing();
-    browser_ = std::make_unique<Browser>();
-    browser_->emulate(1200, 760);
-  }
-  void TearDown() override {
-    if (!browser_) return;
-    const std::vector<std::string> complaints = browser_->complaints();
-    EXPECT_TRUE(complaints.empty() || expects_complaints_) << json(complaints).dump(1);
-  }
-
-  Browser& browser() { return *browser_; }
-
-  /// Opens the page at a state and waits for its answer.
-  void open(const ViewProcess& server, const std::string& state) {
-    browser().open(server.url() + "/#" + state);
-    ASSERT_TRUE(settled());
-  }
-  bool settled() {
-    return browser().waitFor("globalThis.polyloc?.data.answer && !polyloc.isBusy()");
-  }
-  json state(const std::string& key) { return browser().run("return polyloc.state." + key); }
-  json result() { return browser().run("return polyloc.data.answer.result"); }
-  /// Where a place of the map is on the page [pixels].
-  std::pair<double, double> onPage(double x, double y) {
-    const json at = browser().run(
-        "const box = document.getElementById('map').getBoundingClientRect();"
-        "const [px, py] = polyloc.camera.toScreen(" +
-        std::to_string(x) + "," + std::to_string(y) + "); return [box.left + px, box.top + py]");
-    return {at[0].get<double>(), at[1].get<double>()};
-  }
-  void expectFirst(double x, double y, double deg) {
-    const json first = result()["hypotheses"][0];
-    EXPECT_NEAR(first["x"].get<double>(), x, 0.15);
-    EXPECT_NEAR(first["y"].get<double>(), y, 0.15);
-    EXPECT_LT(std::abs(std::remainder(first["phi"].get<double>() * 180 / M_PI - deg, 360)), 4.0);
-  }
-
-  bool expects_complaints_ = false;
-
- private:
-  std::unique_ptr<Browser> browser_;
-};
 
 TEST_F(ViewPage, TheTourOfTheFirstVisitGoesThroughFiveSteps) {
   const ViewProcess server({});
@@ -324,30 +275,6 @@ TEST_F(ViewPage, ErrorsOfTheServerAreShown) {
       "document.getElementById('hint').textContent.includes('outside the free space')"));
 }
 
-/// A closed floor of n x n rooms of 5 m x 5 m with doors, a piece of furniture in each: WKT.
-std::string floorOf(int n) {
-  std::ostringstream wkt;
-  const double side = 5.0 * n;
-  std::mt19937 random(7);
-  const auto share = [&] { return static_cast<double>(random() % 1000) / 1000; };
-  const auto box = [&](double x0, double y0, double x1, double y1) {
-    wkt << ", (" << x0 << ' ' << y0 << ", " << x0 << ' ' << y1 << ", " << x1 << ' ' << y1 << ", "
-        << x1 << ' ' << y0 << ", " << x0 << ' ' << y0 << ')';
-  };
-  wkt << "POLYGON ((0 0, " << side << " 0, " << side << ' ' << side << ", 0 " << side << ", 0 0)";
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      const double x = 5.0 * i, y = 5.0 * j, w = 0.4 + share(), h = 0.4 + share();
-      const double fx = x + 0.6 + 2.6 * share(), fy = y + 0.6 + 2.6 * share();
-      box(fx, fy, fx + w, fy + h);
-      if (i > 0) box(x - 0.05, y + 0.1, x + 0.05, y + 3.2 + share());
-      if (j > 0) box(x + 0.1, y - 0.05, x + 3.2 + share(), y + 0.05);
-    }
-  }
-  wkt << ")\n";
-  return wkt.str();
-}
-
 /// Stated, not asserted: answers a second while the robot is dragged on 1,600 m2.
 TEST_F(ViewPage, SpeedOfDraggingIsStated) {
   const ViewProcess server({write("floor.wkt", floorOf(8))});
@@ -385,7 +312,7 @@ struct FixedState {
   const char* name;
   const char* state;
   bool dark;
-  bool of_demo = false;  ///< of MRPT's localization_demo, else of the niches map
+  enum { niches, rooms, demo } map = niches;  ///< demo: MRPT's localization_demo
 };
 
 /// The pictures of the documentation are those of these states; they are drawn anew with
@@ -399,19 +326,25 @@ TEST_F(ViewPage, LooksAsInTheDocumentation) {
         std::vector<std::string>{"--map", demo + ".simplemap.gz", "--scans", demo + ".rawlog",
                                  "--truth", kSource + "/datasets/localization_demo_truth.tum"});
   }
+  const ViewProcess rooms({kSource + "/datasets/rooms_one_deeper.wkt"});
   const FixedState states[] = {
-      {"view_twins", "x=4.25&y=-3.25&deg=90&show=scan,beams,hypotheses,gallery", false, false},
+      {"view_twins", "x=4.25&y=-3.25&deg=90&show=scan,beams,hypotheses,gallery", false},
       {"view_cells", "x=11&y=1.6&deg=90&method=exact&show=hypotheses,cells,segments,view,skeleton",
-       false, false},
+       false},
       {"view_polar",
        "x=9&y=3&deg=60&sigma=5&discs=10.5,3.2,0.3&show=scan,predicted,hypotheses,polar", true},
-      {"view_bands", "x=7&y=2.4&deg=20&show=scan,hypotheses,regions,bands", true, false},
-      {"view_log", "row=22&show=scan,hypotheses,polar", false, true},
+      {"view_bands", "x=7&y=2.4&deg=20&show=scan,hypotheses,regions,bands", true},
+      {"view_drive", "x=6.5&y=-2.6&deg=80&range=4&seed=3&step=0", false, FixedState::rooms},
+      {"view_known", "x=4.5&y=-3.25&deg=90&step=3", true},
+      {"view_log", "row=22&show=scan,hypotheses,polar", false, FixedState::demo},
   };
   for (const FixedState& fixed : states) {
-    if (fixed.of_demo && !log) continue;
+    if (fixed.map == FixedState::demo && !log) continue;
     browser().emulate(1100, 700, fixed.dark);
-    open(fixed.of_demo ? *log : niches, fixed.state);
+    open(fixed.map == FixedState::demo    ? *log
+         : fixed.map == FixedState::rooms ? rooms
+                                          : niches,
+         fixed.state);
     ASSERT_TRUE(
         browser().waitFor("(!polyloc.state.show.includes('cells') || polyloc.data.cells) && "
                           "(!polyloc.state.show.includes('skeleton') || polyloc.data.view) && "

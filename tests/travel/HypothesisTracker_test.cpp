@@ -179,6 +179,24 @@ TEST_F(Tracker, AScanThatSaysTooLittleChangesNothing) {
   EXPECT_EQ(tracker.state().status, LocalizationStatus::too_few_beams);
 }
 
+TEST_F(Tracker, IsResetWithWhatIsKnownOfThePose) {
+  HypothesisTracker tracker(localizer_);
+  const TPose2D pose(2.5, 1, -kPi / 2);
+  ASSERT_GE(tracker.update(scanAt(map_, pose, 5)).hypotheses.size(), 2U);  // twins
+  PosePrior prior;
+  prior.near = PosePrior::Disk{pose.x, pose.y, 1.0};
+  tracker.reset(prior);
+  for (const TrackedHypothesis& h : tracker.update(scanAt(map_, pose, 5)).hypotheses) {
+    EXPECT_LT(distanceBetween(h.pose_map_robot, {pose.x, pose.y, h.pose_map_robot.phi}), 1.01);
+  }
+  tracker.reset();  // which keeps it
+  EXPECT_EQ(tracker.update(scanAt(map_, pose, 5)).status, LocalizationStatus::unique);
+  tracker.reset(PosePrior());
+  EXPECT_GE(tracker.update(scanAt(map_, pose, 5)).hypotheses.size(), 2U);
+  prior.near->radius = -1.0;
+  EXPECT_THROW(tracker.reset(prior), InvalidParamsError);
+}
+
 TEST_F(Tracker, LookingTwiceFromOnePlaceDecidesNothing) {
   // Twins that differ by noise alone: no number of looks may make one of them sure.
   HypothesisTracker tracker(localizer_);

@@ -43,6 +43,19 @@ export const degrees = (angle) => (angle * 180) / Math.PI;
 // In [-180, 180).
 export const wrapped = (deg) => ((((deg + 180) % 360) + 360) % 360) - 180;
 
+// Flat chains of the robot's frame, as they lie in the map if it stands at a pose.
+export function placed(chains, pose) {
+  const c = Math.cos(pose.phi), s = Math.sin(pose.phi);
+  return chains.map((chain) => {
+    const moved = new Array(chain.length);
+    for (let i = 0; i < chain.length; i += 2) {
+      moved[i] = pose.x + c * chain[i] - s * chain[i + 1];
+      moved[i + 1] = pose.y + s * chain[i] + c * chain[i + 1];
+    }
+    return moved;
+  });
+}
+
 // Whether a point lies in rings of flat chains, by the even-odd rule.
 export function inside(rings, x, y) {
   let is = false;
@@ -53,4 +66,22 @@ export function inside(rings, x, y) {
     }
   }
   return is;
+}
+
+// Moved walls [x, y, dx, dy], with that moved on which the beam straight ahead meets, along it.
+export function shiftedWalls(walls, scan, pose, by) {
+  let ahead = -1;
+  scan.bearings.forEach((bearing, i) => {
+    const isNearer = ahead < 0 || Math.cos(bearing) > Math.cos(scan.bearings[ahead]);
+    if (scan.kinds[i] === 'h' && isNearer) ahead = i;
+  });
+  if (ahead < 0) return walls;
+  const frame = frameOf(scan, pose), angle = frame.phi + scan.bearings[ahead];
+  const c = Math.cos(angle), s = Math.sin(angle);
+  const x = frame.x + scan.ranges[ahead] * c, y = frame.y + scan.ranges[ahead] * s;
+  // One that was moved before: noise may show it some centimetres off.
+  const before = walls.find(([wx, wy, dx, dy]) => Math.hypot(wx + dx - x, wy + dy - y) < 0.15);
+  if (!before) return [...walls, [x, y, by * c, by * s]];
+  const [wx, wy, dx, dy] = before;
+  return walls.map((wall) => (wall === before ? [wx, wy, dx + by * c, dy + by * s] : wall));
 }

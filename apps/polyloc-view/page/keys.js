@@ -10,7 +10,10 @@ const other = [
   ['0', 'whole map'],
   ['1 … 9', 'choose a hypothesis'],
   ['Enter', 'put the robot where the chosen hypothesis is'],
+  ['d', 'plan where to drive so that wrong hypotheses fall; then drive, a step at a time (Shift: to the end)'],
+  ['a', 'a step of the drive back'],
   ['i', 'drop an object before the robot'],
+  ['w', 'push the wall before the robot 0.2 m away (Shift: nearer)'],
   ['u', 'tidy up: no objects, no moved walls'],
   ['y', 'next method'],
   ['m', 'controls'],
@@ -19,7 +22,7 @@ const other = [
   ['space', 'play and stop the log'],
   [', .', 'scan before, next scan of the log'],
   ['n', 'next miss'],
-  ['Esc', 'leave the log; close'],
+  ['Esc', 'leave the log; end the drive; close'],
   ['?', 'these keys'],
 ];
 
@@ -76,7 +79,8 @@ function pressed(event, act) {
   const name = {
     '+': 'zoomIn', '=': 'zoomIn', '-': 'zoomOut', 0: 'fit', enter: 'adopt', i: 'drop', u: 'tidy', y: 'nextMethod',
     m: 'panel', t: 'theme', ' ': 'play', ',': 'before', '.': 'next', n: 'nextMiss', escape: 'leave', '?': 'help',
-    j: event.shiftKey ? 'savePng' : 'saveSvg',
+    j: event.shiftKey ? 'savePng' : 'saveSvg', d: event.shiftKey ? 'driveToTheEnd' : 'drive', a: 'driveBack',
+    w: event.shiftKey ? 'pullWall' : 'pushWall',
   }[key];
   if (!name) return false;
   act[name]();

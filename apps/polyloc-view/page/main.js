@@ -3,7 +3,7 @@
 import * as api from './api.js';
 import { Camera } from './camera.js';
 import { drawGallery } from './gallery.js';
-import { inside, radians, wrapped } from './geometry.js';
+import { inside, radians, shiftedWalls, wrapped } from './geometry.js';
 import { Hand } from './hand.js';
 import { bindKeys, fillHelp } from './keys.js';
 import { LogPlayer } from './log.js';
@@ -14,6 +14,7 @@ import { jsonText, offer, svgText } from './saving.js';
 import { colours, drawScene } from './scene.js';
 import { addressOf, change, defaults, fromAddress, layers, onChange, pack, shows, state, toggle, unpack } from './state.js';
 import { Tour } from './tour.js';
+import { Travel } from './travel.js';
 
 const $ = (id) => document.getElementById(id);
 const canvas = $('map');
@@ -28,12 +29,16 @@ const pose = () => ({ x: state.x, y: state.y, phi: radians(state.deg) });
 // In a log the robot is where the answer says, not in the hand.
 const inLog = () => state.row >= 0 && player.count > 0;
 
+// In a drive it is where its steps have led to.
+const inDrive = () => state.step >= 0 && !inLog();
+const robot = () => (inDrive() && state.step > 0 && data.answer?.drive?.pose) || pose();
+
 function scene() {
   const walls = unpack(state.walls);
   if (wallDrag) walls.push(wallDrag);
   return {
     map: data.map,
-    pose: inLog() ? null : pose(),
+    pose: inLog() ? null : robot(),
     scan: data.answer?.scan ?? null,
     polygon: data.answer?.polygon ?? null,
     result: data.answer?.result ?? null,
@@ -43,14 +48,15 @@ function scene() {
     leaf: data.leaf,
     cells: data.cells,
     changes: { discs: unpack(state.discs), walls },
-    prior: priorOf(),
+    prior: inDrive() && state.step > 0 ? {} : priorOf(),
+    drive: (inDrive() && data.answer?.drive) || null,
     path: player.count ? { truth: player.path, dots: player.dots(), here: inLog() ? data.answer?.truth : null } : null,
   };
 }
 
 // Where the switches look from: the hand, or the chosen answer to a scan of the log.
 function standpoint() {
-  return (inLog() && data.answer?.result?.hypotheses[state.sel]) || pose();
+  return (inLog() && data.answer?.result?.hypotheses[state.sel]) || robot();
 }
 
 function priorOf() {
@@ -196,6 +202,11 @@ function simulationOf() {
   };
 }
 
+function driveOf() {
+  const { search, ...simulation } = simulationOf();
+  return { ...simulation, prior: search.prior, robot: { radius: state.radius / 100, strategy: state.strategy } };
+}
+
 function searchOf() {
   return {
     prior: priorOf(),
@@ -205,6 +216,7 @@ function searchOf() {
 
 // The answer to the scan in the hand, or to the row of the log.
 async function question() {
+  if (inDrive()) return travel.question(driveOf());
   if (!inLog()) return api.post('answer', 'simulate', simulationOf());
   if (state.compass || state.near) {
     // The prior asks for the truth of this row, which comes with it.
@@ -243,10 +255,17 @@ async function answerOnce() {
   found();
   data.answer = answer;
   if (answer.row !== undefined) player.answered(answer);
+  if (answer.drive) travel.answered(answer);
   if (state.sel >= answer.result.hypotheses.length) change({ sel: 0 });
-  showAnswer(answer.result, state.sel, choose);
+  show();
   draw();
   await details();
+}
+
+function show() {
+  const result = data.answer?.result;
+  showAnswer(result, state.sel, choose, data.answer?.drive?.plan?.falls);
+  $('travel-plan').hidden = inDrive() || inLog() || result?.status !== 'ambiguous';
 }
 
 // What the switches need beside the answer itself.
@@ -267,7 +286,7 @@ async function compare() {
   const { scan, result } = data.answer ?? {};
   if (!scan) return;
   const chosen = result.hypotheses[state.sel];
-  const place = chosen ?? pose();
+  const place = chosen ?? robot();
   const answer = await api.post('compare', 'compare', { ...scan, pose: { x: place.x, y: place.y, phi: place.phi } });
   if (answer) data.compare = { ...answer, pose: place, title: chosen ? `hypothesis ${state.sel + 1}` : 'the robot' };
 }
@@ -297,7 +316,8 @@ async function loadCells() {
 function failed(error) {
   if (error instanceof api.ApiFailure && error.status >= 400) {
     data.answer = { scan: data.answer?.scan ?? null, result: null };
-    showAnswer(null);
+    if (inDrive()) travel.failed();
+    show();
     hint(error.message, 6000);
     draw();
   } else {
@@ -383,8 +403,13 @@ function dragWall(from, to, isDone) {
   draw();
 }
 
+function shiftWall(by) {
+  if (!data.answer?.scan || inLog() || inDrive()) return;
+  change({ walls: pack(shiftedWalls(unpack(state.walls), data.answer.scan, pose(), by)) });
+}
+
 const act = {
-  pose: () => (inLog() ? null : { x: state.x, y: state.y, deg: state.deg }),
+  pose: () => (inLog() || state.step > 0 ? null : { x: state.x, y: state.y, deg: state.deg }),
   move: (x, y) => !inLog() && change({ x, y }),
   turn: (deg) => !inLog() && change({ deg }),
   pan: viewChanged,
@@ -408,7 +433,12 @@ const keys = {
     if (h) change({ x: h.x, y: h.y, deg: wrapped((h.phi * 180) / Math.PI), row: -1 });
   },
   drop: () => drop(state.x + 0.8 * Math.cos(radians(state.deg)), state.y + 0.8 * Math.sin(radians(state.deg))),
+  pushWall: () => shiftWall(0.2),
+  pullWall: () => shiftWall(-0.2),
   tidy,
+  drive: () => travel.go(),
+  driveBack: () => travel.back(),
+  driveToTheEnd: () => travel.toggle(),
   nextMethod: () => {
     const all = ['certified', 'cells', 'exact'];
     change({ method: all[(all.indexOf(state.method) + 1) % all.length] });
@@ -426,23 +456,26 @@ const keys = {
   before: () => player.step(-1),
   next: () => player.step(1),
   nextMiss: () => player.nextMiss().catch(failed),
-  leave: () => (tour.isOpen ? tour.end() : player.leave()),
+  leave: () => (tour.isOpen ? tour.end() : inDrive() ? travel.leave() : player.leave()),
 };
 
-const kScanKeys = ['x', 'y', 'deg', 'beams', 'fov', 'range', 'sigma', 'short', 'dropout', 'seed', 'compass', 'ctol', 'near', 'nearr', 'most', 'method', 'discs', 'walls', 'row'];
+const kScanKeys = ['x', 'y', 'deg', 'beams', 'fov', 'range', 'sigma', 'short', 'dropout', 'seed', 'compass', 'ctol', 'near', 'nearr', 'most', 'method', 'discs', 'walls', 'row', 'step', 'radius', 'strategy'];
 // What an outcome in the log depends on.
 const kSearchKeys = ['compass', 'ctol', 'near', 'nearr', 'most', 'method'];
 
 onChange((changed) => {
+  // What is changed on the way begins another drive.
+  if (state.step > 0 && !changed.includes('step') && changed.some((key) => kScanKeys.includes(key))) change({ step: 0 });
   if (changed.some((key) => kSearchKeys.includes(key))) player.forget();
   if (changed.includes('row')) player.show();
+  if (changed.includes('row') || changed.includes('step')) travel.show();
   if (changed.some((key) => kScanKeys.includes(key))) ask();
   else if (changed.includes('show')) {
     const needsRegions = shows('regions') && !data.answer?.result?.regions;
     if (needsRegions) ask();
     else details().catch(failed);
   } else if (changed.includes('sel')) {
-    showAnswer(data.answer?.result, state.sel, choose);
+    show();
     details().catch(failed);
   }
   draw();
@@ -455,9 +488,16 @@ const player = new LogPlayer({
   hint: (words) => hint(words),
 });
 
+const travel = new Travel({
+  step: () => (inLog() ? -1 : state.step),
+  setStep: (step) => change({ step, sel: 0 }),
+  may: () => (inLog() ? 'A scan of the log is not simulated: leave the log (Esc) to drive.' : ''),
+  hint: (words) => hint(words),
+});
+
 const tour = new Tour({
   set: (part) => {
-    change({ ...part, row: -1, compass: false, near: false, discs: '', walls: '', short: 0, dropout: 0 });
+    change({ ...part, row: -1, step: -1, compass: false, near: false, discs: '', walls: '', short: 0, dropout: 0 });
     fit();
   },
 });
@@ -490,7 +530,11 @@ async function begin() {
   };
   for (const [id, press] of Object.entries(buttons)) $(id).addEventListener('click', press);
   new ResizeObserver(resize).observe(canvas);
-  addEventListener('visibilitychange', () => !document.hidden && look());
+  addEventListener('visibilitychange', () => {
+    if (!document.hidden) return look();
+    player.stop(); // nobody looks
+    travel.stop();
+  });
   addEventListener('hashchange', () => {
     change({ ...defaults, ...fromAddress(location.hash) });
     if (data.map) fitOrRestore();

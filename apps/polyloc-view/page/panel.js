@@ -22,7 +22,8 @@ export function bindPanel() {
     show();
   }
   bindRadio('method', () => state.method, (method) => change({ method }));
-  onChange((keys) => keys.includes('method') && tick('method', state.method));
+  bindRadio('strategy', () => state.strategy, (strategy) => change({ strategy }));
+  for (const name of ['method', 'strategy']) onChange((keys) => keys.includes(name) && tick(name, state[name]));
   addLayers();
 }
 
@@ -60,7 +61,8 @@ function addLayers() {
 }
 
 // Status, match, time, and the list of hypotheses.
-export function showAnswer(result, chosen, choose) {
+// falls: of the hypotheses that a plan is to tell apart, by how much, see the API.
+export function showAnswer(result, chosen, choose, falls = []) {
   const pill = $('status'), numbers = $('numbers'), list = $('hypotheses');
   pill.className = `pill ${result?.status ?? ''}`;
   pill.textContent = result ? result.status.replace(/_/g, ' ') : '…';
@@ -82,14 +84,14 @@ export function showAnswer(result, chosen, choose) {
     say(`${(100 * match).toFixed(0)} %`, ' · ');
   }
   say(ms < 10 ? ms.toFixed(1) : ms.toFixed(0), ' ms');
-  showHypotheses(list, all, chosen, choose);
+  showHypotheses(list, all, chosen, choose, new Set(falls.map((one) => one.hypothesis)));
   const certificate = result.certificate;
   $('certificate').textContent = certificate
     ? `${certificate.complete ? 'Proven' : 'Proven so far'}: no pose elsewhere costs ${(100 * certificate.cost).toFixed(1)} cm a beam or less, but for ${certificate.regions} regions not excluded.`
     : '';
 }
 
-function showHypotheses(list, all, chosen, choose) {
+function showHypotheses(list, all, chosen, choose, atStake) {
   while (list.children.length > all.length) list.lastChild.remove();
   all.forEach((h, i) => {
     if (!list.children[i]) {
@@ -102,6 +104,8 @@ function showHypotheses(list, all, chosen, choose) {
     }
     const button = list.children[i].firstChild;
     button.setAttribute('aria-pressed', String(i === chosen));
+    button.classList.toggle('at-stake', atStake.has(i));
+    button.title = atStake.has(i) ? 'The scan at the goal tells it from others: it falls if one of those is right' : '';
     button.children[0].textContent = i + 1;
     button.children[1].textContent = `${h.x.toFixed(2)}, ${h.y.toFixed(2)}, ${((h.phi * 180) / Math.PI).toFixed(1)}°`;
     button.children[2].textContent = `${(100 * h.weight).toFixed(1)} %`;

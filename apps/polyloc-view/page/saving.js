@@ -10,8 +10,8 @@ export function svgText(scene, camera, shows, colour) {
 }
 
 export function jsonText(state, scene) {
-  const { scan, result, compare, leaf, view, polygon } = scene;
-  return `${JSON.stringify({ state, scan, polygon, result, compare, view, leaf }, null, 1)}\n`;
+  const { scan, result, compare, leaf, view, polygon, drive } = scene;
+  return `${JSON.stringify({ state, scan, polygon, result, compare, view, leaf, drive }, null, 1)}\n`;
 }
 
 export function offer(name, content, type) {

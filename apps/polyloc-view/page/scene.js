@@ -1,8 +1,8 @@
 // What is drawn of the map and the answers, with either pen. A scene:
-// {map, pose, scan, result, chosen, compare, view, leaf, cells, polygon, changes, prior, path, truth}
+// {map, pose, scan, result, chosen, compare, view, leaf, cells, polygon, changes, prior, path, drive}
 // and what of it is to be shown.
 
-import { frameOf, hitPoints, beamChains, predictedChain } from './geometry.js';
+import { frameOf, hitPoints, beamChains, placed, predictedChain } from './geometry.js';
 
 export function colours() {
   const style = getComputedStyle(document.documentElement);
@@ -99,6 +99,50 @@ function drawScan(pen, scan, pose, shows, colour, alpha = 1) {
   if (shows('scan')) pen.dots(hitPoints(scan, frame), 2, { fill: colour('--scan'), alpha });
 }
 
+const flat = (points) => points.flatMap(({ x, y }) => [x, y]);
+
+// The safe set, with what was driven.
+function drawSafe(pen, drive, colour) {
+  const safe = placed(drive.safe, drive.pose);
+  pen.chains(safe, { fill: colour('--safe'), alpha: 0.2, stroke: colour('--safe'), strokeAlpha: 0.7, width: 1, closed: true });
+  if (drive.way.length < 4) return;
+  pen.chains([drive.way], { stroke: colour('--robot'), width: 2, alpha: 0.8 });
+  pen.dots(flat(drive.stops), 3.5, { fill: colour('--robot'), stroke: colour('--free'), width: 1 });
+}
+
+// Those that fell, fainter with each step since, and crossed out.
+function drawFallen(pen, drive, colour, scale) {
+  const own = colour('--fallen');
+  for (const h of drive.fallen) {
+    const age = drive.step - h.step;
+    const alpha = Math.max(0.8 ** (age + 1), 0.3);
+    const arm = 8 / scale;
+    drawArrow(pen, h, 14 / scale, { fill: own, alpha: 0.6 * alpha });
+    pen.chains([[h.x - arm, h.y - arm, h.x + arm, h.y + arm], [h.x - arm, h.y + arm, h.x + arm, h.y - arm]], { stroke: own, width: 1.8, alpha });
+  }
+}
+
+// The plan where the robot truly is, and as it lies if another hypothesis is right.
+function drawPlan(pen, drive, hypotheses, colour, scale) {
+  const { plan, pose } = drive;
+  if (plan?.status !== 'go') return;
+  const way = flat(plan.way), path = flat(plan.path), own = colour('--plan');
+  const atStake = new Set(plan.falls.map((one) => one.hypothesis));
+  hypotheses.slice(0, 40).forEach((h, i) => {
+    if (Math.hypot(h.x - pose.x, h.y - pose.y) > 0.5) {
+      pen.chains(placed([path], h), { stroke: own, width: 1, dash: [3, 4], alpha: 0.55 });
+    }
+    if (atStake.has(i)) pen.ellipse(h.x, h.y, 22 / scale, 22 / scale, 0, { stroke: own, width: 1.5, dash: [4, 4] });
+  });
+  const [goal] = placed([[plan.goal.x, plan.goal.y]], pose);
+  const [stop] = placed([[plan.waypoint.x, plan.waypoint.y]], pose);
+  pen.chains(placed([path], pose), { stroke: own, width: 1.8, dash: [6, 5] });
+  pen.chains(placed([way], pose), { stroke: own, width: 4 });
+  pen.dots(stop, 10, { fill: colour('--free'), alpha: 0.85, stroke: own, strokeAlpha: 1, width: 3 });
+  const arm = 7 / scale, [gx, gy] = goal;
+  pen.chains([[gx - arm, gy, gx, gy - arm, gx + arm, gy, gx, gy + arm]], { fill: own, stroke: colour('--free'), width: 1.5, closed: true });
+}
+
 function drawChanges(pen, changes, colour) {
   const own = colour('--object');
   for (const [x, y, r] of changes.discs) pen.ellipse(x, y, r, r, 0, { fill: own, alpha: 0.5, stroke: own, strokeAlpha: 1, width: 1.5 });
@@ -123,17 +167,18 @@ function drawPrior(pen, scene, colour) {
   }
 }
 
-// A vacuum cleaner as seen from above, with the handle it is turned by.
+// A vacuum cleaner as seen from above, with the handle it is turned by, unless it drives.
 function drawRobot(pen, scene, colour) {
   const { pose, scale } = scene;
   const own = colour('--robot');
   const r = Math.max(0.18, 11 / scale);
   const c = Math.cos(pose.phi), s = Math.sin(pose.phi);
   const reach = handleReach(scale);
-  pen.chains([[pose.x, pose.y, pose.x + reach * c, pose.y + reach * s]], { stroke: own, width: 2 });
+  const isInHand = !(scene.drive?.step > 0);
+  if (isInHand) pen.chains([[pose.x, pose.y, pose.x + reach * c, pose.y + reach * s]], { stroke: own, width: 2 });
   pen.ellipse(pose.x, pose.y, r, r, 0, { fill: own, stroke: colour('--free'), width: 2 });
   drawArrow(pen, pose, 0.62 * r, { fill: colour('--free') });
-  pen.dots([pose.x + reach * c, pose.y + reach * s], 6.5, { fill: colour('--free'), stroke: own, width: 2.5 });
+  if (isInHand) pen.dots([pose.x + reach * c, pose.y + reach * s], 6.5, { fill: colour('--free'), stroke: own, width: 2.5 });
 }
 
 export const handleReach = (scale) => Math.max(0.18, 11 / scale) + 26 / scale;
@@ -159,6 +204,8 @@ export function drawScene(pen, scene, shows, colour, scale) {
   drawPath(pen, scene, colour);
   drawPrior(pen, scene, colour);
   drawChanges(pen, scene.changes, colour);
+  if (scene.drive) drawSafe(pen, scene.drive, colour);
+  if (scene.drive && shows('hypotheses')) drawFallen(pen, scene.drive, colour, scale);
   const chosen = scene.result?.hypotheses[scene.chosen];
   const at = scene.pose ?? chosen;
   if (scene.scan && at) drawScan(pen, scene.scan, at, shows, colour);
@@ -169,5 +216,6 @@ export function drawScene(pen, scene, shows, colour, scale) {
     pen.dots(hitPoints(scene.scan, frameOf(scene.scan, scene.compare.pose)), 1.3, { fill: colour('--measured'), alpha: 0.6 });
   }
   if (scene.result && shows('hypotheses')) drawHypotheses(pen, scene, colour, scale);
+  if (scene.drive) drawPlan(pen, scene.drive, shows('hypotheses') ? scene.result.hypotheses : [], colour, scale);
   if (scene.pose) drawRobot(pen, scene, colour);
 }

@@ -20,6 +20,7 @@ export const defaults = {
   beams: 360, fov: 360, range: 20, sigma: 3, short: 0, dropout: 0, seed: 1,
   compass: false, ctol: 10, near: false, nearr: 5, most: 20, method: 'certified',
   show: 'scan,hypotheses', discs: '', walls: '', sel: 0, row: -1,
+  step: -1, radius: 25, strategy: 'greedy',
   cx: null, cy: null, zoom: null,
 };
 

@@ -8,8 +8,8 @@ const steps = [
   },
   {
     title: '2 · Some places look alike',
-    text: 'Deep in an outer niche the same is seen as in its twin nine metres beside it. No method can tell them apart, and an honest one says so: two hypotheses, each with its weight. That is the localization problem as Guibas, Motwani and Raghavan put it: list every pose.',
-    set: { x: 4.25, y: -3.25, deg: 90, show: 'scan,beams,hypotheses', method: 'certified', sel: 0 },
+    text: 'Deep in an outer niche the same is seen as in its twin nine metres beside it. No method can tell them apart, and an honest one says so: two hypotheses, each with its weight. That is the localization problem as Guibas, Motwani and Raghavan put it: list every pose. "Where to drive?" shows how a robot finds out: it drives where both let it, and looks again.',
+    set: { x: 4.5, y: -3.25, deg: 90, show: 'scan,beams,hypotheses', method: 'certified', sel: 0 },
   },
   {
     title: '3 · Visibility cells',
