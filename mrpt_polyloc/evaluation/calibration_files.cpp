@@ -100,7 +100,7 @@ std::string calibrationHeader(const Calibration& calibration,
                               const std::vector<std::string>& origin) {
   std::string text =
       "#pragma once\n\n#include <array>\n\n"
-      "/// Written by polyloc-calibrate; do not edit.\n";
+      "// clang-format off\n/// Written by polyloc-calibrate; do not edit.\n";
   for (const std::string& line : origin) text += "/// " + line + "\n";
   text += "namespace mrpt_polyloc::default_calibration {\n\n";
   for (const Field& field : kFields) {

@@ -2,6 +2,7 @@
 
 #include <array>
 
+// clang-format off
 /// Written by polyloc-calibrate; do not edit.
 /// polyloc-calibrate SETS --own 1000000 --cluttered 60 --foreign 40
 ///   --lost 0.001 --unique-right 0.995 --foreign-unique 0.003 --clutter-weight 0.1
