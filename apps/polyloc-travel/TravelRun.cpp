@@ -114,6 +114,7 @@ class Run {
     if (!is_anchored_) {
       SearchOptions options;
       options.max_hypotheses = trackerParams().max_hypotheses;
+      options.unite_valleys = false;
       const LocalizationResult alone = localizer_.localize(scan, {}, options);
       is_anchored_ = alone.listed >= kWhole && alone.hypotheses.size() < options.max_hypotheses;
       tracker_.reset();

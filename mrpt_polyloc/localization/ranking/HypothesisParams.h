@@ -12,6 +12,9 @@ struct POLYLOC_EXPORT HypothesisParams {
   /// A difference of the mean evidence counts in units of its standard error, or of this if that is
   /// less [m]: the map itself is not better.
   double indifference = 0.004;
+  /// Whether hypotheses that stand in one long uncertain valley are returned as one, with a long
+  /// covariance; only if SearchOptions::unite_valleys says so as well.
+  bool unite_valleys = true;
   BeamEvidenceParams evidence;  ///< by which hypotheses are ranked and weighed
   Calibration calibration;
 
