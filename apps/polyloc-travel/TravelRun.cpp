@@ -139,6 +139,7 @@ const TrackingState& TravelRun::follow(const RangeScan& scan) {
   if (!is_anchored_) {
     SearchOptions options;
     options.max_hypotheses = trackerParams().max_hypotheses;
+    options.unite_valleys = false;
     const LocalizationResult alone = localizer_.localize(scan, priorNow(), options);
     is_anchored_ = alone.listed >= kWhole && alone.hypotheses.size() < options.max_hypotheses;
     tracker_.reset(priorNow());

@@ -57,9 +57,15 @@ ordered_json toJson(const LocalizationResult& result, std::size_t most_regions) 
     json["hypotheses"].push_back(toJson(hypothesis));
   }
   if (result.certificate) {
+    const SettledRegions& settled = result.certificate->settled;
     json["certificate"] = {{"cost", result.certificate->cost},
                            {"complete", result.certificate->is_complete},
-                           {"regions", result.certificate->regions}};
+                           {"regions", result.certificate->regions},
+                           {"bounded", settled.bounded},
+                           {"distant", settled.distant},
+                           {"lowered", settled.lowered},
+                           {"drained", settled.drained},
+                           {"undecided", settled.undecided}};
   }
   json["statistics"] = {{"evaluated", result.statistics.evaluated},
                         {"refined", result.statistics.refined},

@@ -88,15 +88,17 @@ LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePr
   const double search_ms = 1e3 * watch.seconds();
 
   // Refined, merged, ranked; and what they mean.
+  HypothesisParams hypotheses = params_.hypotheses;
+  hypotheses.unite_valleys = hypotheses.unite_valleys && options.unite_valleys;
   LocalizationResult result = resultOf(rankCandidates(
       posesOf(found.candidates), scan, allowed, predictor,
-      {options.max_hypotheses, params_.cost, params_.refinement, params_.hypotheses}, budget));
+      {options.max_hypotheses, params_.cost, params_.refinement, hypotheses}, budget));
   if (found.certified_cost) {
     result.certificate =
-        Certificate{*found.certified_cost, found.is_complete, found.regions.size()};
+        Certificate{*found.certified_cost, found.is_complete, found.regions.size(), found.settled};
   }
-  // What a budget left out may be as good.
-  const bool is_cut_short = !found.is_complete || budget.isSpent();
+  // What a budget left out, or what is undecided, may be as good.
+  const bool is_cut_short = !found.is_complete || found.settled.undecided > 0 || budget.isSpent();
   if (result.status == LocalizationStatus::unique && is_cut_short) {
     result.status = LocalizationStatus::ambiguous;
   }

@@ -104,6 +104,7 @@ LocalizationResult GlobalLocalizer::localize(const ScanSet& set, const PosePrior
   constexpr std::size_t kOfEachScan = 50;
   SearchOptions of_each = options;
   of_each.max_hypotheses = std::max(options.max_hypotheses, kOfEachScan);
+  of_each.unite_valleys = false;  // another scan may tell where in it
 
   LocalizationResult result;
   std::vector<TPose2D> candidates;
@@ -122,7 +123,7 @@ LocalizationResult GlobalLocalizer::localize(const ScanSet& set, const PosePrior
     const Motion& from_now = set.fromNow(place.moment);
     LocalizationResult found = searcher.localize(set.moments()[place.moment].scans[place.scan],
                                                  carried(prior, from_now), of_each);
-    is_cut_short = is_cut_short || !found.certificate || !found.certificate->is_complete;
+    is_cut_short = is_cut_short || !found.certificate || !found.certificate->isDecided();
     add(result.statistics, found.statistics);
     if (is_first) {
       result.certificate = found.certificate;

@@ -54,6 +54,7 @@ MultiMapResult MultiMapLocalizer::localize(const ScanSet& set, const PosePrior& 
   constexpr std::size_t kLeastRivals = 20;
   SearchOptions of_each = options;
   of_each.max_hypotheses = std::max(options.max_hypotheses, kLeastRivals);
+  of_each.unite_valleys = false;
   std::vector<Candidate> candidates;
   bool is_cut_short = false, is_searched = false;
   for (std::size_t m = 0; m < localizers_.size(); ++m) {
@@ -62,7 +63,7 @@ MultiMapResult MultiMapLocalizer::localize(const ScanSet& set, const PosePrior& 
     const LocalizationResult& found = all.of_map.back();
     add(all.result.statistics, found.statistics);
     is_searched = is_searched || found.status != LocalizationStatus::too_few_beams;
-    is_cut_short = is_cut_short || (found.certificate && !found.certificate->is_complete);
+    is_cut_short = is_cut_short || (found.certificate && !found.certificate->isDecided());
     if (found.hypotheses.empty()) continue;
     const RangePredictor& predictor = localizer.index().parts().predictor();
     const SetEvidence evidence(predictor, set, weights, localizer.params().cost, with.evidence);

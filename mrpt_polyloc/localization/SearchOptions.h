@@ -19,6 +19,9 @@ struct POLYLOC_EXPORT SearchOptions {
   /// What the certified search minimises and certifies. Poses are ranked by the robust cost in any
   /// case.
   SearchMetric metric = SearchMetric::robust;
+  /// Whether hypotheses that stand in one long uncertain valley, as along a corridor, are returned
+  /// as one with a long covariance; false for those who go on to tell them apart.
+  bool unite_valleys = true;
   /// Whether the result lists what could not be excluded.
   bool keep_regions = false;
 

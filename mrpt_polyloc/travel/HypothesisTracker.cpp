@@ -129,6 +129,7 @@ void HypothesisTracker::search(const ScanSet& now) {
   since_search_ = 0.0;
   SearchOptions options;
   options.max_hypotheses = params_.max_hypotheses;
+  options.unite_valleys = false;  // the next scans may tell where in it
   const bool is_first = state_.status == LocalizationStatus::too_few_beams;
   const LocalizationResult found =
       localizer_.localize(now, is_first ? prior_ : PosePrior(), options);

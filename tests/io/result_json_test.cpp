@@ -32,6 +32,12 @@ TEST(ResultJson, HoldsWhatTheResultHolds) {
   ASSERT_TRUE(result.certificate);
   EXPECT_EQ(json["certificate"]["cost"], result.certificate->cost);
   EXPECT_EQ(json["certificate"]["regions"], result.certificate->regions);
+  const auto& settled = json["certificate"];
+  EXPECT_EQ(settled["bounded"].get<std::size_t>() + settled["distant"].get<std::size_t>() +
+                settled["lowered"].get<std::size_t>() + settled["drained"].get<std::size_t>() +
+                settled["undecided"].get<std::size_t>(),
+            result.certificate->regions);
+  EXPECT_GT(settled["lowered"].get<std::size_t>(), 0U);
   // The few regions of least bound, in its order.
   ASSERT_EQ(json["regions"].size(), std::min<std::size_t>(3, result.regions.size()));
   for (const PoseRegion& region : result.regions) {

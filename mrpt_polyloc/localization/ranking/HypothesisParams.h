@@ -18,6 +18,9 @@ struct POLYLOC_EXPORT HypothesisParams {
   double cell_share = 0.6;
   /// That side [m]; 0: what the map says (PolygonMap::cellSize()), for localizers fill it in.
   double cell_size = 0.0;
+  /// Whether hypotheses that stand in one long uncertain valley are returned as one, with a long
+  /// covariance; only if SearchOptions::unite_valleys says so as well.
+  bool unite_valleys = true;
   BeamEvidenceParams evidence;  ///< by which hypotheses are ranked and weighed
   Calibration calibration;
 

@@ -1,7 +1,9 @@
 #include <mrpt_polyloc/localization/ranking/assess.h>
 #include <mrpt_polyloc/localization/ranking/match_features.h>
+#include <mrpt_polyloc/localization/ranking/valleys.h>
 #include <mrpt_polyloc/localization/scan/BeamSectors.h>
 
+#include <cstddef>
 #include <utility>
 
 namespace mrpt_polyloc {
@@ -22,6 +24,13 @@ Assessment assess(const std::vector<ScoredPose>& poses, const RangeScan& scan, c
   result.status = first_is_right >= params.calibration.unique_probability
                       ? LocalizationStatus::unique
                       : LocalizationStatus::ambiguous;
+  if (params.unite_valleys) {
+    // The status stands: a pose that is not known along a corridor is not unique.
+    const std::vector<std::size_t> of_poses = valleysOf(poses, cost, sectors);
+    std::vector<std::size_t> valleys;
+    for (const std::size_t i : order) valleys.push_back(of_poses[i]);
+    hypotheses = uniteValleys(hypotheses, valleys);
+  }
   if (hypotheses.size() > max_hypotheses) hypotheses.resize(max_hypotheses);
   for (const Hypothesis& hypothesis : hypotheses) result.listed += hypothesis.weight;
   result.hypotheses = std::move(hypotheses);

@@ -14,7 +14,8 @@ namespace mrpt_polyloc {
 ///
 /// The status is no_match where the probability that the scan was taken in this map is below
 /// least_match_probability; unique where that probability times the weight of the first hypothesis
-/// reaches unique_probability; else ambiguous.
+/// reaches unique_probability; else ambiguous. Then hypotheses of one valley become one
+/// (valleys.h), if the params say so.
 /// \param poses sorted by cost, merged; all that may be rivals, whether they are returned or not
 /// \param cost of the scan, as the poses were ranked by
 /// \param max_hypotheses at most so many are returned; weights are of all poses, so that those

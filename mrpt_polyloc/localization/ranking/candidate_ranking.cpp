@@ -1,6 +1,8 @@
 #include <mrpt_polyloc/localization/ranking/assess.h>
 #include <mrpt_polyloc/localization/ranking/candidate_ranking.h>
 #include <mrpt_polyloc/localization/ranking/hypotheses.h>
+#include <mrpt_polyloc/localization/ranking/valleys.h>
+#include <mrpt_polyloc/localization/scan/BeamSectors.h>
 #include <mrpt_polyloc/localization/scan/PoseDescent.h>
 #include <mrpt_polyloc/localization/scan/ScanCost.h>
 
@@ -10,6 +12,20 @@
 
 namespace mrpt_polyloc {
 namespace {
+
+/// How many poses to keep, so that there are `most` of them, those of a valley taken for one: a
+/// valley of which some poses are missing would fall apart.
+std::size_t cutAt(std::size_t most, const std::vector<ScoredPose>& poses, const ScanCost& cost,
+                  const HypothesisParams& params) {
+  if (!params.unite_valleys) return most;
+  const std::vector<std::size_t> valleys = valleysOf(poses, cost, BeamSectors(cost.beams()));
+  std::size_t count = 0, kept = 0;
+  for (; kept < poses.size(); ++kept) {
+    count += valleys[kept] == kept ? 1 : 0;  // the first of its valley
+    if (count > most) break;
+  }
+  return kept;
+}
 
 /// Candidates refined with some of the beams, the best of them with all; sorted by cost.
 std::vector<ScoredPose> refine(const std::vector<mrpt::math::TPose2D>& candidates,
@@ -36,7 +52,7 @@ std::vector<ScoredPose> refine(const std::vector<mrpt::math::TPose2D>& candidate
   // Rivals count even where they are not asked for: one hypothesis may be all that is returned.
   constexpr std::size_t kLeastRivals = 50;
   const std::size_t kept = std::max(params.max_hypotheses, kLeastRivals);
-  if (poses.size() > 2 * kept) poses.resize(2 * kept);
+  if (poses.size() > 2 * kept) poses.resize(cutAt(2 * kept, poses, cost, params.hypotheses));
   // Those that cost much more than the best will not become it.
   constexpr double kWorthShare = 1.25, kWorthMargin = 0.03;  // measured, [m]
   const double most_cost = poses.empty() ? 0.0 : kWorthShare * poses.front().cost + kWorthMargin;

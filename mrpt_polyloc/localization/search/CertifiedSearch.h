@@ -3,6 +3,7 @@
 #include <mrpt_polyloc/base/Budget.h>
 #include <mrpt_polyloc/localization/scan/PosePrior.h>
 #include <mrpt_polyloc/localization/search/BandQuery.h>
+#include <mrpt_polyloc/localization/search/Certificate.h>
 #include <mrpt_polyloc/localization/search/CertifiedSearchParams.h>
 #include <mrpt_polyloc/localization/search/PoseCandidate.h>
 #include <mrpt_polyloc/localization/search/PoseScorer.h>
@@ -25,7 +26,9 @@ struct RemainingLeaf {
 };
 
 struct CertifiedSearchResult {
-  std::vector<PoseCandidate> candidates;  ///< starting points for refinement, best first
+  /// Starting points for refinement: the best first, then optima found when the regions were
+  /// settled.
+  std::vector<PoseCandidate> candidates;
   /// Every pose that the prior allows whose search cost is at most `certified_cost` lies in one of
   /// these.
   std::vector<RemainingLeaf> regions;
@@ -34,12 +37,14 @@ struct CertifiedSearchResult {
   /// Whether certified_cost reaches the least search cost found plus the margin; false where a
   /// budget ended the search.
   bool is_complete = true;
+  SettledRegions settled;     ///< what became of the regions
   std::size_t evaluated = 0;  ///< nodes whose bound was computed
 };
 
 /// Branch and bound over (leaf, window of headings). The limit rises in a few steps, until it
 /// reaches the least cost that the poses found on the way have once refined, plus the margin. What
-/// is bounded above it is left out; what remains of the leaves are the regions.
+/// is bounded above it is left out; what remains of the leaves are the regions, which are then
+/// settled (see settleLeaves()).
 ///
 /// \param sensor the beams' origin in the robot frame, to hold `prior`, which speaks of the robot,
 /// against

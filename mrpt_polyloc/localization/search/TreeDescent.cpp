@@ -130,11 +130,13 @@ bool TreeDescent::expandUpTo(unsigned limit, const std::function<bool()>& is_spe
   for (std::size_t level = kTop; level > 0; --level) {
     std::vector<Node>& nodes = workspace_->within[level];
     groupByIndex(level, nodes);
-    for (std::size_t first = 0, last = 0; is_complete && first < nodes.size(); first = last) {
+    std::size_t first = 0;
+    for (std::size_t last = 0; is_complete && first < nodes.size(); first = last) {
       while (last < nodes.size() && nodes[last].index == nodes[first].index) ++last;
       expand(level, nodes, first, last);
       is_complete = !is_spent();
     }
+    nodes.erase(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(first));
   }
   groupByIndex(0, workspace_->within[0]);
   leaves.insert(leaves.end(), workspace_->within[0].begin(), workspace_->within[0].end());
@@ -157,6 +159,19 @@ void TreeDescent::greedyDescent(std::size_t width, std::vector<Node>& leaves) {
     for (std::size_t i = 0; i < kept; ++i) expand(level, nodes, i, i + 1);
   }
   leaves.insert(leaves.end(), workspace_->within[0].begin(), workspace_->within[0].end());
+}
+
+std::size_t TreeDescent::countBelow(unsigned bound) const {
+  const auto count = [bound](const std::vector<Node>& nodes) {
+    return static_cast<std::size_t>(std::count_if(
+        nodes.begin(), nodes.end(), [bound](const Node& node) { return node.bound < bound; }));
+  };
+  std::size_t sum = 0;
+  for (std::size_t level = 0; level <= kTop; ++level) {
+    for (const std::vector<Node>& waiting : workspace_->waiting[level]) sum += count(waiting);
+    if (level > 0) sum += count(workspace_->within[level]);  // the leaves were handed out
+  }
+  return sum;
 }
 
 bool TreeDescent::isDone() const {

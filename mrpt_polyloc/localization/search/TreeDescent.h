@@ -56,6 +56,9 @@ class TreeDescent {
   /// comes to.
   void greedyDescent(std::size_t width, std::vector<Node>& leaves);
 
+  /// Nodes that were not opened, bounded below `bound`: what leaves may yet come from.
+  std::size_t countBelow(unsigned bound) const;
+
   std::size_t evaluated() const { return evaluated_; }  ///< nodes bounded so far
 
  private:
