@@ -71,6 +71,7 @@ ordered_json summaryObject(const Summary& all, const Summary* good, const IndexF
   ordered_json json = summaryFigures(all);
   json["index_build_s"] = index.build_s;
   json["index_mb"] = index.mb;
+  if (index.cold_start_s) json["cold_start_s"] = *index.cold_start_s;
   json["map"] = map_statistics;
   if (good != nullptr) json["good"] = summaryFigures(*good);
   return json;

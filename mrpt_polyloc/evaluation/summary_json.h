@@ -22,6 +22,8 @@ POLYLOC_EXPORT nlohmann::ordered_json mapStatistics(const PolygonMap& map);
 struct POLYLOC_EXPORT IndexFigures {
   double build_s = 0.0;  ///< wall time, tracing of the map and all [s]
   double mb = 0.0;       ///< memory [10^6 bytes]
+  /// Wall time from the program's start to the first answer [s], where there is one.
+  std::optional<double> cold_start_s = std::nullopt;
 };
 
 /// What summary.json says of one set, with the map's figures as mapStatistics() gives them.

@@ -29,7 +29,7 @@ class POLYLOC_EXPORT MapIndexParts {
   std::size_t bytes() const;
 
   /// The squares of the index of edges are so many leaves wide: the measured optimum of both.
-  static constexpr double kLeavesPerSquare = 2.0;
+  static constexpr double kLeavesPerSquare = 4.0;
 
  private:
   Lazy<Triangulation> triangulation_;

@@ -80,6 +80,7 @@ struct RangePredictor::Workspace {
   DepthWorkspace depths;
   FloatBlocks wall, open;  ///< inverse ranges of the sorted beams
   HitColumns hits;
+  VisibleEdgeIndex::EdgeRuns seen;
 };
 
 RangePredictor::RangePredictor(const Triangulation& triangulation, double square_size, int threads,
@@ -104,13 +105,13 @@ void RangePredictor::look(const mrpt::math::TPose2D& pose, std::int64_t square,
   if (!box_.contains({pose.x, pose.y}) || !std::isfinite(pose.phi)) return;
   const BoundaryChains& chains = index_.chains();
   const ViewFrame frame = frameOf(pose, chains);
-  VisibleEdgeIndex::EdgeRuns seen{chains.walls().data(), chains.walls().size(),
-                                  chains.open().data(), chains.open().size()};
-  if (square >= 0) seen = index_.edgeRuns(square);
-  raiseDepths(chains, seen.walls, seen.wall_runs, frame, beams, w.depths, wall);
-  if (open == nullptr || seen.open_runs == 0) return;
+  index_.take(square, w.seen);
+  const auto& walls = w.seen.walls;
+  const auto& opens = w.seen.open;
+  raiseDepths(chains, walls.data(), walls.size(), frame, beams, w.depths, wall);
+  if (open == nullptr || opens.empty()) return;
   open->assign(beams.size(), 0.0F);
-  raiseDepths(chains, seen.open, seen.open_runs, frame, beams, w.depths, *open);
+  raiseDepths(chains, opens.data(), opens.size(), frame, beams, w.depths, *open);
 }
 
 void RangePredictor::predict(const mrpt::math::TPose2D& pose, std::int64_t square,

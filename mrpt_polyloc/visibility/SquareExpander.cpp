@@ -12,6 +12,10 @@ namespace {
 /// A cone that keeps growing is opened to the whole edge: bounds the work.
 constexpr std::int32_t kMostWidenings = 6;
 
+/// Of the queue: finer ones save no following any more.
+constexpr float kStepsPerMetre = 16.0F;
+constexpr float kMostSteps = 16384.0F;
+
 constexpr double kSqrt2 = 1.4142135623730951;
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
@@ -69,10 +73,14 @@ void SquareExpander::expand(const Square& square, const std::vector<std::int32_t
       reach(3 * static_cast<HalfEdge>(face) + i, {{right, right}, {left, left}}, from_here);
     }
   }
-  while (!queue_.empty()) {
-    std::pop_heap(queue_.begin(), queue_.end());
-    const HalfEdge edge = queue_.back().edge;
-    queue_.pop_back();
+  for (nearest_waiting_ = 0; nearest_waiting_ < queue_.size();) {
+    std::vector<HalfEdge>& step = queue_[nearest_waiting_];
+    if (step.empty()) {
+      ++nearest_waiting_;
+      continue;
+    }
+    const HalfEdge edge = step.back();
+    step.pop_back();
     passed_[edge].is_waiting = false;
     follow(edge);
   }
@@ -189,8 +197,11 @@ void SquareExpander::reach(HalfEdge edge, const Cone& cone, Reach reach) {
 void SquareExpander::wait(HalfEdge edge, std::int32_t across) {
   const Node& node = nodes_[static_cast<std::size_t>(across) / 3];
   const float x = node.x - center_x_, y = node.y - center_y_;
-  queue_.push_back({x * x + y * y - node.squared_radius, edge});
-  std::push_heap(queue_.begin(), queue_.end());
+  const float distance = std::sqrt(std::max(x * x + y * y - node.squared_radius, 0.0F));
+  const auto step = static_cast<std::size_t>(std::min(distance * kStepsPerMetre, kMostSteps));
+  if (step >= queue_.size()) queue_.resize(step + 1);
+  queue_[step].push_back(edge);
+  nearest_waiting_ = std::min(nearest_waiting_, step);
   passed_[edge].is_waiting = true;
 }
 

@@ -24,8 +24,8 @@ struct Square {
 /// r.x * x.y - r.y * x.x +- half * (|x.x - r.x| + |x.y - r.y|).
 ///
 /// Faces are entered near ones first (by the power of the centre to their circles, which is an
-/// order of visibility in a Delaunay triangulation), so that an edge is mostly followed once, with
-/// all the cones that reach it.
+/// order of visibility in a Delaunay triangulation; in steps, for a queue is as fast as it is
+/// coarse), so that an edge is mostly followed once, with all the cones that reach it.
 ///
 /// What lies in unknown space is seen up to a horizon only: so far behind the first open edge by
 /// which a ray leaves free space, whatever it passes there. Without it nearly every wall of a map
@@ -77,11 +77,6 @@ class SquareExpander {
   };
   static constexpr std::int32_t kEnd = -1;  ///< a wall
   static constexpr std::int32_t kRim = -2;  ///< of the box
-  struct Waiting {
-    float distance;  ///< squared, less the squared radius
-    HalfEdge edge;
-    bool operator<(const Waiting& other) const { return distance > other.distance; }
-  };
   enum class Side { right, left };
 
   TPoint2D at(std::int32_t v) const {
@@ -109,7 +104,10 @@ class SquareExpander {
   std::vector<HalfEdge>* open_ = nullptr;
   std::vector<Passed> passed_;
   std::vector<HalfEdge> touched_;
-  std::vector<Waiting> queue_;  ///< a heap
+  /// Half edges that wait, by how far their circle is, in steps of kStep: order within a step only
+  /// saves work.
+  std::vector<std::vector<HalfEdge>> queue_;
+  std::size_t nearest_waiting_ = 0;  ///< nothing waits in steps below
 };
 
 }  // namespace mrpt_polyloc

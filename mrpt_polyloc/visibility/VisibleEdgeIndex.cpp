@@ -2,6 +2,7 @@
 #include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
+#include <mrpt_polyloc/visibility/packed_runs.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -9,6 +10,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -18,6 +20,11 @@ namespace {
 
 /// So many unseen edges between two seen ones cost less than another run.
 constexpr std::uint32_t kGreatestGap = 3;
+
+std::uint64_t nextId() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
 
 /// Whether a triangle and an axis-parallel square, whose boxes overlap, overlap themselves.
 bool overlap(const Triangulation& t, const Triangulation::Face& face, const Square& square) {
@@ -35,7 +42,7 @@ bool overlap(const Triangulation& t, const Triangulation::Face& face, const Squa
 
 VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, double square_size,
                                    int threads, double horizon, BuildProgress* progress)
-    : chains_(triangulation) {
+    : chains_(triangulation), id_(nextId()) {
   requirePositive("horizon", horizon);
   lists_.layout = chains_.hash();
   lists_.horizon = horizon;
@@ -46,15 +53,19 @@ VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, double sq
   lists_.begin.push_back(0);
   for (const SeenRuns& from_square : seen) {
     for (const auto* runs : {&from_square.walls, &from_square.open}) {
-      lists_.runs.insert(lists_.runs.end(), runs->begin(), runs->end());
-      lists_.begin.push_back(static_cast<std::uint32_t>(lists_.runs.size()));
+      lists_.begin.push_back(lists_.begin.back() + runs->size());
     }
   }
-  lists_.runs.shrink_to_fit();
+  lists_.runs.reserve(lists_.begin.back());
+  for (const SeenRuns& from_square : seen) {
+    for (const auto* runs : {&from_square.walls, &from_square.open}) {
+      lists_.runs.insert(lists_.runs.end(), runs->begin(), runs->end());
+    }
+  }
 }
 
 VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, Lists lists)
-    : chains_(triangulation) {
+    : chains_(triangulation), id_(nextId()) {
   layGrid(triangulation.box(), lists.square_size);
   lists_ = std::move(lists);
   const auto require = [](bool is_met) {
@@ -74,8 +85,9 @@ VisibleEdgeIndex::VisibleEdgeIndex(const Triangulation& triangulation, Lists lis
             place.row < grid_.rows() && grid_.at(place.column, place.row) == TiledGrid::kNone);
     grid_.put(place.column, place.row, static_cast<std::int32_t>(&place - lists_.squares.data()));
   }
-  for (const Run& run : lists_.runs) {
-    require(std::size_t{run.first} + run.edges < chains_.vertexCount());
+  for (std::size_t i = 0; i + 1 < lists_.begin.size(); ++i) {
+    require(arePackedRuns(lists_.runs.data() + lists_.begin[i],
+                          lists_.runs.data() + lists_.begin[i + 1], chains_.vertexCount()));
   }
 }
 
@@ -186,12 +198,12 @@ std::vector<VisibleEdgeIndex::SeenRuns> VisibleEdgeIndex::findRuns(const Triangu
         for (const auto edge : worker.walls) {
           worker.numbers.push_back(chains_.wallNumber(edge / 3, edge % 3));
         }
-        runs[i].walls = runsOf(worker.numbers);
+        runs[i].walls = packedRunsOf(worker.numbers);
         worker.numbers.clear();
         for (const auto edge : worker.open) {
           worker.numbers.push_back(chains_.openNumber(edge / 3, edge % 3));
         }
-        runs[i].open = runsOf(worker.numbers);
+        runs[i].open = packedRunsOf(worker.numbers);
       }
       if (progress != nullptr) progress->take(range.size());
     });
@@ -201,7 +213,7 @@ std::vector<VisibleEdgeIndex::SeenRuns> VisibleEdgeIndex::findRuns(const Triangu
 
 /// Runs that cover edges, with small gaps filled: what is listed without being seen is hidden
 /// behind the rest.
-std::vector<VisibleEdgeIndex::Run> VisibleEdgeIndex::runsOf(
+std::vector<std::uint8_t> VisibleEdgeIndex::packedRunsOf(
     std::vector<std::uint32_t>& numbers) const {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -220,7 +232,10 @@ std::vector<VisibleEdgeIndex::Run> VisibleEdgeIndex::runsOf(
     }
     runs.push_back({number, 1});
   }
-  return runs;
+  std::vector<std::uint8_t> packed;
+  packRuns(runs, packed);
+  packed.shrink_to_fit();
+  return packed;
 }
 
 std::int64_t VisibleEdgeIndex::squareNumber(const TPoint2D& point) const {
@@ -230,15 +245,38 @@ std::int64_t VisibleEdgeIndex::squareNumber(const TPoint2D& point) const {
   return grid_.at(static_cast<int>(column), static_cast<int>(row));
 }
 
+void VisibleEdgeIndex::take(std::int64_t number, EdgeRuns& runs) const {
+  if (runs.index_ == id_ && runs.square_ == number) return;
+  runs.index_ = id_;
+  runs.square_ = number;
+  if (number < 0) {
+    runs.walls = chains_.walls();
+    runs.open = chains_.open();
+    return;
+  }
+  const std::uint64_t* begin = &lists_.begin[2 * static_cast<std::size_t>(number)];
+  const std::uint8_t* bytes = lists_.runs.data();
+  runs.walls.clear();
+  runs.open.clear();
+  unpackRuns(bytes + begin[0], bytes + begin[1], runs.walls);
+  unpackRuns(bytes + begin[1], bytes + begin[2], runs.open);
+}
+
 VisibleEdgeIndex::EdgeRuns VisibleEdgeIndex::edgeRuns(std::int64_t number) const {
-  const std::uint32_t* begin = &lists_.begin[2 * static_cast<std::size_t>(number)];
-  const Run* runs = lists_.runs.data();
-  return {runs + begin[0], begin[1] - begin[0], runs + begin[1], begin[2] - begin[1]};
+  EdgeRuns runs;
+  take(number, runs);
+  return runs;
+}
+
+bool VisibleEdgeIndex::seesOpen(std::int64_t number) const {
+  if (number < 0) return !chains_.open().empty();
+  const std::uint64_t* begin = &lists_.begin[2 * static_cast<std::size_t>(number)];
+  return begin[1] < begin[2];
 }
 
 std::size_t VisibleEdgeIndex::bytes() const {
   return chains_.bytes() + grid_.bytes() + lists_.squares.size() * sizeof(SquarePlace) +
-         lists_.begin.size() * sizeof(std::uint32_t) + lists_.runs.size() * sizeof(Run);
+         lists_.begin.size() * sizeof(std::uint64_t) + lists_.runs.size();
 }
 
 }  // namespace mrpt_polyloc

@@ -14,7 +14,7 @@ namespace mrpt_polyloc {
 
 /// For every square of a grid over the free space, the edges that may be seen from some
 /// point of it: a superset, so that a depth buffer over the list gives the exact view. Lists are
-/// runs of BoundaryChains. Built on several threads with one result.
+/// runs of BoundaryChains, held as bytes (packed_runs.h). Built on several threads with one result.
 ///
 /// Walls are seen up to a horizon: from a point in free space, all that a ray meets until it has
 /// gone so far past the first open edge by which it left (from a point in unknown space see
@@ -22,12 +22,14 @@ namespace mrpt_polyloc {
 class VisibleEdgeIndex {
  public:
   using Run = BoundaryChains::Run;
-  /// Runs of walls, then of open edges seen from their free side.
+  /// Runs of walls, and of open edges seen from their free side.
   struct EdgeRuns {
-    const Run* walls;
-    std::size_t wall_runs;
-    const Run* open;
-    std::size_t open_runs;
+    std::vector<Run> walls, open;
+
+   private:
+    friend class VisibleEdgeIndex;
+    std::uint64_t index_ = 0;  ///< whose they are; 0: of none
+    std::int64_t square_ = 0;
   };
 
   /// The default horizon [m]: nothing is lost by it on real maps with their many holes, where one
@@ -50,8 +52,8 @@ class VisibleEdgeIndex {
     double horizon = 0.0;              ///< [m]
     std::uint64_t layout = 0;          ///< BoundaryChains::hash() of what `runs` refers to
     std::vector<SquarePlace> squares;  ///< that have lists, row by row
-    std::vector<std::uint32_t> begin;  ///< into `runs`: walls at 2 i, open edges at 2 i + 1
-    std::vector<Run> runs;
+    std::vector<std::uint64_t> begin;  ///< into `runs`: walls at 2 i, open edges at 2 i + 1
+    std::vector<std::uint8_t> runs;    ///< packed
   };
   /// \throws InvalidMapError unless the lists may be those of the triangulation's map
   VisibleEdgeIndex(const Triangulation& triangulation, Lists lists);
@@ -63,7 +65,12 @@ class VisibleEdgeIndex {
   /// The number of the square that holds a point (squares in a row are consecutive), -1 if not
   /// indexed.
   std::int64_t squareNumber(const TPoint2D& point) const;
+  /// What is listed for a square; for -1 all edges of the map. Nothing is done where `runs` are
+  /// those of the square already.
+  void take(std::int64_t number, EdgeRuns& runs) const;
   EdgeRuns edgeRuns(std::int64_t number) const;
+  /// Whether open edges are listed for a square.
+  bool seesOpen(std::int64_t number) const;
   double horizon() const { return lists_.horizon; }  ///< [m]
 
   const BoundaryChains& chains() const { return chains_; }
@@ -78,19 +85,20 @@ class VisibleEdgeIndex {
   Square square(int column, int row) const;
   /// Numbers the squares to be indexed; returns how many there are.
   std::size_t numberLists(const Triangulation& t);
-  /// The runs seen from a square.
+  /// The runs seen from a square, packed.
   struct SeenRuns {
-    std::vector<Run> walls, open;
+    std::vector<std::uint8_t> walls, open;
   };
   std::vector<SeenRuns> findRuns(const Triangulation& t, std::size_t lists, int threads,
                                  BuildProgress* progress) const;
-  std::vector<Run> runsOf(std::vector<std::uint32_t>& numbers) const;
+  std::vector<std::uint8_t> packedRunsOf(std::vector<std::uint32_t>& numbers) const;
   void layGrid(const BoundingBox& box, double square_size);
 
   BoundaryChains chains_;
   TPoint2D corner_;  ///< lower left, of square (0, 0)
   TiledGrid grid_;   ///< of the squares, each with the number of its lists
   Lists lists_;
+  std::uint64_t id_;  ///< of this index among all of the process
 };
 
 }  // namespace mrpt_polyloc

@@ -97,8 +97,8 @@ double meanListLength(const RangePredictor& predictor, const std::vector<TPose2D
   std::size_t sum = 0;
   for (const TPose2D& pose : poses) {
     const auto cell = predictor.index().edgeRuns(predictor.index().squareNumber({pose.x, pose.y}));
-    for (std::size_t i = 0; i < cell.wall_runs; ++i) sum += cell.walls[i].edges;
-    for (std::size_t i = 0; i < cell.open_runs; ++i) sum += cell.open[i].edges;
+    for (const auto& run : cell.walls) sum += run.edges;
+    for (const auto& run : cell.open) sum += run.edges;
   }
   return static_cast<double>(sum) / static_cast<double>(poses.size());
 }

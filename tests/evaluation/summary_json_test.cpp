@@ -55,13 +55,13 @@ TEST(SummaryJsonTest, HasTheKeysInOrder) {
   all.status = {1, 2, 0, 1};
   Summary good = all;
   good.scans = 3;
-  const std::string text = summaryJson(all, &good, {1.5, 40.25}, roomWithPillar());
+  const std::string text = summaryJson(all, &good, {1.5, 40.25, 1.75}, roomWithPillar());
   EXPECT_EQ(text.back(), '\n');
   const ordered_json json = ordered_json::parse(text);
   EXPECT_THAT(keysOf(json),
               ElementsAre("scans", "top1", "top5", "top20", "in_list", "unique_right",
                           "median_error_m", "median_error_deg", "ms_median", "ms_p90", "ms_max",
-                          "status", "index_build_s", "index_mb", "map", "good"));
+                          "status", "index_build_s", "index_mb", "cold_start_s", "map", "good"));
   EXPECT_THAT(keysOf(json["status"]),
               ElementsAre("unique", "ambiguous", "no_match", "too_few_beams"));
   EXPECT_THAT(

@@ -18,11 +18,10 @@ namespace {
 /// An edge by its fixed-point coordinates.
 using Edge = std::array<std::int32_t, 4>;
 
-std::set<Edge> edgesOf(const BoundaryChains& chains, const BoundaryChains::Run* runs,
-                       std::size_t count) {
+std::set<Edge> edgesOf(const BoundaryChains& chains, const std::vector<BoundaryChains::Run>& runs) {
   std::set<Edge> edges;
-  for (std::size_t r = 0; r < count; ++r) {
-    for (std::uint32_t i = runs[r].first; i < runs[r].first + runs[r].edges; ++i) {
+  for (const BoundaryChains::Run& run : runs) {
+    for (std::uint32_t i = run.first; i < run.first + run.edges; ++i) {
       edges.insert({chains.x()[i], chains.y()[i], chains.x()[i + 1], chains.y()[i + 1]});
     }
   }
@@ -67,13 +66,10 @@ TEST(VisibleEdgeIndex, ListsAllThatIsSeenFromAnyPointOfACell) {
       ++points;
       const VisibleEdgeIndex::EdgeRuns square = index.edgeRuns(number);
       const View& view = expander.expand(p);
-      EXPECT_EQ(missing(t, index.chains(), wallsOf(view),
-                        edgesOf(index.chains(), square.walls, square.wall_runs)),
+      EXPECT_EQ(missing(t, index.chains(), wallsOf(view), edgesOf(index.chains(), square.walls)),
                 0U)
           << p.x << " " << p.y;
-      EXPECT_EQ(missing(t, index.chains(), view.open,
-                        edgesOf(index.chains(), square.open, square.open_runs)),
-                0U)
+      EXPECT_EQ(missing(t, index.chains(), view.open, edgesOf(index.chains(), square.open)), 0U)
           << p.x << " " << p.y;
     }
   }
@@ -89,8 +85,8 @@ TEST(VisibleEdgeIndex, ListsNoWallsFarBehindOpenEdges) {
   const auto walls_seen = [&t](double horizon) {
     const VisibleEdgeIndex index(t, 0.5, 1, horizon);
     const VisibleEdgeIndex::EdgeRuns square = index.edgeRuns(index.squareNumber({2, 2}));
-    EXPECT_EQ(edgesOf(index.chains(), square.open, square.open_runs).size(), 1U) << horizon;
-    return edgesOf(index.chains(), square.walls, square.wall_runs).size();
+    EXPECT_EQ(edgesOf(index.chains(), square.open).size(), 1U) << horizon;
+    return edgesOf(index.chains(), square.walls).size();
   };
   EXPECT_EQ(walls_seen(20.0), 3U);
   EXPECT_GE(walls_seen(40.0), 6U);  // the other room's inside, through its open edge
@@ -106,7 +102,7 @@ TEST(VisibleEdgeIndex, ListsFewEdgesThatAreNotSeen) {
   std::size_t listed = 0, seen = 0;
   for (const TPoint2D& p : test::randomFreePoints(map, 500, random)) {
     const VisibleEdgeIndex::EdgeRuns square = index.edgeRuns(index.squareNumber(p));
-    listed += edgesOf(index.chains(), square.walls, square.wall_runs).size();
+    listed += edgesOf(index.chains(), square.walls).size();
     seen += wallsOf(expander.expand(p)).size();
   }
   EXPECT_LT(listed, 3 * seen);
@@ -128,9 +124,9 @@ TEST(VisibleEdgeIndex, IsTheSameForAnyNumberOfThreads) {
     if (number < 0) continue;
     const VisibleEdgeIndex::EdgeRuns a = one.edgeRuns(number), b = two.edgeRuns(number),
                                      c = all.edgeRuns(number);
-    ASSERT_TRUE(std::equal(a.walls, a.walls + a.wall_runs, b.walls, b.walls + b.wall_runs, same));
-    ASSERT_TRUE(std::equal(a.open, a.open + a.open_runs, b.open, b.open + b.open_runs, same));
-    ASSERT_TRUE(std::equal(a.walls, a.walls + a.wall_runs, c.walls, c.walls + c.wall_runs, same));
+    ASSERT_TRUE(std::equal(a.walls.begin(), a.walls.end(), b.walls.begin(), b.walls.end(), same));
+    ASSERT_TRUE(std::equal(a.open.begin(), a.open.end(), b.open.begin(), b.open.end(), same));
+    ASSERT_TRUE(std::equal(a.walls.begin(), a.walls.end(), c.walls.begin(), c.walls.end(), same));
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/geometry/BoundingBox.h>
 #include <mrpt_polyloc/visibility/VisibleEdgeIndex.h>
 
 #include <array>
@@ -44,6 +45,13 @@ class RangeBandFinder {
   /// Keeps a reference to the index.
   explicit RangeBandFinder(const VisibleEdgeIndex& index);
   ~RangeBandFinder();
+
+  /// Looks through what is listed for the middle of a block (within one square of the index):
+  /// leaves within it are then bounded by what may be seen from it alone, which is less. What is
+  /// left out lies behind walls that block its bins from everywhere in the block, so that bounds
+  /// stay as they are, but for single edges of chains that were broken. Borders may cross the
+  /// block: their edges within it stay, and block nothing.
+  void narrow(const BoundingBox& block);
 
   /// \param leaf convex, counterclockwise, at most kMostVertices vertices, not crossed by a border,
   /// within one square of the index [m]; `count` vertices

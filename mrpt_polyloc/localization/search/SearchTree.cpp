@@ -90,8 +90,14 @@ SearchTree::SearchTree(Data data) : data_(std::move(data)) {
               data_.first_vertex.back() == data_.vertices.size() &&
               std::is_sorted(data_.first_vertex.begin(), data_.first_vertex.end()),
           "polygons");
-  require(data_.views.size() == leaves * kViewArrays * kStride + 1, "views");
-  for (std::size_t i = 0; i < leaves; ++i) require(polygonSize(i) >= 3, "polygons");
+  require(data_.first_view.size() == leaves + 1 && data_.first_view.front() == 0 &&
+              data_.views.size() == data_.first_view.back() * kStride + 1,
+          "views");
+  for (std::size_t i = 0; i < leaves; ++i) {
+    require(polygonSize(i) >= 3, "polygons");
+    const std::uint32_t arrays = data_.first_view[i + 1] - data_.first_view[i];
+    require(arrays == 1 || arrays == 2, "views");
+  }
   for (std::size_t level = 0; level < kLevels; ++level) {
     const Level& l = data_.levels[level];
     require(l.boxes.size() == l.nodes.size(), "boxes");
@@ -136,9 +142,11 @@ SearchTree::Squares SearchTree::takeLeaves(const Triangulation& triangulation, i
 /// The nodes of all levels, with room for their arrays.
 void SearchTree::layOut(const VisibleEdgeIndex& index, Squares squares) {
   Squares places = std::move(squares);
+  data_.first_view.push_back(0);
   for (std::size_t leaf = 0; leaf < places.size(); ++leaf) {
     const std::int64_t number = index.squareNumber(middle(leaf));
-    const bool has_open = number < 0 || index.edgeRuns(number).open_runs > 0;
+    const bool has_open = index.seesOpen(number);
+    data_.first_view.push_back(data_.first_view.back() + (has_open ? 2 : 1));
     data_.levels[0].nodes.push_back({0, 0, static_cast<std::uint16_t>(has_open ? 1 : 0), 0});
   }
   for (std::size_t level = 1; level < kLevels; ++level) {
@@ -164,7 +172,7 @@ void SearchTree::layOut(const VisibleEdgeIndex& index, Squares squares) {
   for (Level& level : data_.levels) {
     level.codes.resize(level.nodes.size() * kArrays * kStride + 1);  // beams read one ahead
   }
-  data_.views.resize(data_.levels[0].nodes.size() * kViewArrays * kStride + 1);
+  data_.views.resize(data_.first_view.back() * kStride + 1);
 }
 
 void SearchTree::storeBands(const NodeBands& bands, std::size_t level, std::size_t node) {
@@ -189,17 +197,18 @@ void SearchTree::storeBands(const NodeBands& bands, std::size_t level, std::size
 }
 
 void SearchTree::storeView(const PredictedRanges& ranges, std::size_t leaf) {
-  std::uint16_t* const near = &data_.views[leaf * kViewArrays * kStride];
-  std::uint16_t* const wall = near + kStride;
+  std::uint16_t* const near = &data_.views[data_.first_view[leaf] * kStride];
   const auto in_units = [](float range) {
     constexpr double kMost = 65535.0;
     return static_cast<std::uint16_t>(std::min(static_cast<double>(range) / kViewUnit, kMost));
   };
   for (std::size_t b = 0; b < kBandBins; ++b) {
     near[b] = in_units(std::min(ranges.wall[b], ranges.open[b]));
-    wall[b] = in_units(ranges.wall[b]);
   }
   repeat(near);
+  if (data_.first_view[leaf + 1] - data_.first_view[leaf] == 1) return;  // near is wall
+  std::uint16_t* const wall = near + kStride;
+  for (std::size_t b = 0; b < kBandBins; ++b) wall[b] = in_units(ranges.wall[b]);
   repeat(wall);
 }
 
@@ -220,6 +229,7 @@ void SearchTree::fill(const RangePredictor& predictor, int threads, BuildProgres
         bandsOfLeaf(ranges_of_leaf, predictor.index().horizon(), bands);
       } else {
         const Node& n = data_.levels[level].nodes[node];
+        if (level == 1 && n.child_count > 1) finder.narrow(box(level, node));
         NodeBands child;
         for (std::uint32_t i = 0; i < n.child_count; ++i) {
           self(self, level - 1, n.first_child + i, i == 0 ? bands : child);
@@ -249,8 +259,9 @@ void SearchTree::fill(const RangePredictor& predictor, int threads, BuildProgres
 }
 
 SearchTree::View SearchTree::middleView(std::size_t leaf) const {
-  const std::uint16_t* near = &data_.views[leaf * kViewArrays * kStride];
-  return {near, near + kStride};
+  const std::uint16_t* near = &data_.views[data_.first_view[leaf] * kStride];
+  const std::size_t arrays = data_.first_view[leaf + 1] - data_.first_view[leaf];
+  return {near, near + (arrays - 1) * kStride};
 }
 
 SearchTree::Bands SearchTree::bands(std::size_t level, std::size_t node) const {
@@ -270,7 +281,7 @@ TPoint2D SearchTree::middle(std::size_t leaf) const {
 std::size_t SearchTree::bytes() const {
   std::size_t sum = data_.vertices.size() * sizeof(TPoint2D) +
                     data_.views.size() * sizeof(std::uint16_t) +
-                    data_.first_vertex.size() * sizeof(std::uint32_t);
+                    (data_.first_vertex.size() + data_.first_view.size()) * sizeof(std::uint32_t);
   for (const Level& level : data_.levels) {
     sum += level.nodes.size() * sizeof(Node) + level.boxes.size() * sizeof(BoundingBox) +
            level.codes.size();

@@ -16,7 +16,8 @@ namespace mrpt_polyloc {
 
 struct SearchTreeParams {
   /// Side of the squares of the finest level [m]. Bounds get tighter, memory and time of building
-  /// grow with its inverse square. The index of visible edges must have squares of twice this size.
+  /// grow with its inverse square. The index of visible edges must have squares of four times this
+  /// size.
   double leaf_size = 0.25;
   int threads = 0;  ///< 0: all cores
 
@@ -40,7 +41,6 @@ class SearchTree {
   /// begin at any bin.
   static constexpr std::size_t kStride = 192;
   static constexpr std::size_t kArrays = 4;       ///< of a node, see Bands
-  static constexpr std::size_t kViewArrays = 2;   ///< of a leaf, see View
   static constexpr double kViewUnit = 1.0 / 128;  ///< [m]
 
   struct Node {
@@ -59,7 +59,9 @@ class SearchTree {
     std::vector<TPoint2D> vertices;           ///< of the leaves' polygons
     std::vector<std::uint32_t> first_vertex;  ///< of each leaf, and the end
     std::array<Level, kLevels> levels;
-    std::vector<std::uint16_t> views;  ///< of each leaf near and wall; and one entry more
+    std::vector<std::uint32_t> first_view;  ///< array of each leaf in `views`, and the end
+    /// Of each leaf near and, where it may see open edges, wall; and one entry more.
+    std::vector<std::uint16_t> views;
   };
 
   /// A BinBand of each bin, as QuantizedRange of a scale. In a node that sees open edges the lowest
@@ -76,7 +78,7 @@ class SearchTree {
     const std::uint16_t *near, *wall;
   };
 
-  /// \param predictor its index over squares of twice the leaf size
+  /// \param predictor its index over squares of four times the leaf size
   /// \throws InvalidParamsError, CancelledError
   SearchTree(const Triangulation& triangulation, const RangePredictor& predictor,
              const SearchTreeParams& params = {}, BuildProgress* progress = nullptr);

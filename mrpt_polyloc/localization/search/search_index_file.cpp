@@ -12,7 +12,7 @@ namespace mrpt_polyloc {
 namespace {
 
 constexpr char kMagic[8] = {'P', 'L', 'C', 'E', 'L', 'L', 'S', '\n'};  // as in version 1
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 class Writer {
  public:
@@ -110,6 +110,7 @@ void forEachArray(Lists& edges, Data& tree, Action&& action) {
     action(level.boxes);
     action(level.codes);
   }
+  action(tree.first_view);
   action(tree.views);
 }
 

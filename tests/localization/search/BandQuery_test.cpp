@@ -182,7 +182,7 @@ TEST(BandQuery, BoundsNeverExceedTheCostOfAPose) {
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
     const PolygonMap map = floorPlan(randomParams(random), seed);
     const Triangulation triangulation(map);
-    const RangePredictor predictor(triangulation, 0.5, 1);
+    const RangePredictor predictor(triangulation, 1.0, 1);
     const SearchTree tree(triangulation, predictor, {0.25, 1});
     const BruteForceRays rays(map);
     ScanOptions options;

@@ -14,12 +14,12 @@
 namespace mrpt_polyloc::test {
 namespace {
 
-/// A map with the bands' index over squares twice as large as the leaves.
+/// A map with the bands' index over squares four times as large as the leaves.
 struct MapWithBands {
   explicit MapWithBands(PolygonMap polygon_map, double size)
       : map(std::move(polygon_map)),
         triangulation(map),
-        index(triangulation, 2 * size, 1),
+        index(triangulation, 4 * size, 1),
         leaves(convexPieces(triangulation, triangulation.box().min, size, 1)),
         rays(map) {}
 
@@ -43,6 +43,18 @@ TPoint2D pointIn(const TPoint2D* polygon, std::size_t count, std::mt19937& rando
     sum += weight;
   }
   return p * (1.0 / sum);
+}
+
+/// The box of all leaves in the block of two by two squares that holds a leaf's.
+BoundingBox blockOf(const MapWithBands& built, const ConvexPieces::Piece& leaf) {
+  BoundingBox box = BoundingBox::empty();
+  for (const ConvexPieces::Piece& other : built.leaves.pieces) {
+    if (other.column >> 1 != leaf.column >> 1 || other.row >> 1 != leaf.row >> 1) continue;
+    for (std::uint32_t k = 0; k < other.count; ++k) {
+      box.include(built.leaves.vertices[other.first + k]);
+    }
+  }
+  return box;
 }
 
 /// How a band holds what is seen from points of its leaf.
@@ -72,7 +84,9 @@ void expectOutside(double range, float low, float high, Tally& tally) {
   tally.worst = std::max(tally.worst, off);
 }
 
-Tally checkCells(const MapWithBands& built, std::size_t leaves, std::uint32_t seed) {
+enum class Lists { of_index, narrowed };
+
+Tally checkCells(const MapWithBands& built, std::size_t leaves, std::uint32_t seed, Lists lists) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   RangeBandFinder finder(built.index);
@@ -81,6 +95,7 @@ Tally checkCells(const MapWithBands& built, std::size_t leaves, std::uint32_t se
   for (std::size_t i = 0; i < leaves; ++i) {
     const auto& leaf = built.leaves.pieces[random() % built.leaves.pieces.size()];
     const TPoint2D* polygon = &built.leaves.vertices[leaf.first];
+    if (lists == Lists::narrowed) finder.narrow(blockOf(built, leaf));
     finder.find(polygon, leaf.count, bands);
     TPoint2D middle{0, 0};
     for (std::size_t k = 0; k < leaf.count; ++k) {
@@ -111,8 +126,10 @@ TEST(RangeBands, HoldWhatIsSeenInNamedMaps) {
     for (const double open_share : {0.0, 0.4}) {
       SCOPED_TRACE(std::string(name) + (open_share > 0 ? " with open edges" : ""));
       const MapWithBands built(open_share > 0 ? withOpenEdges(map, open_share, 3) : map, 0.2);
-      const Tally tally = checkCells(built, 60, 1);
-      EXPECT_EQ(tally.outside, 0U) << "of " << tally.rays << ", by " << tally.worst << " m";
+      for (const Lists lists : {Lists::of_index, Lists::narrowed}) {
+        const Tally tally = checkCells(built, 60, 1, lists);
+        EXPECT_EQ(tally.outside, 0U) << "of " << tally.rays << ", by " << tally.worst << " m";
+      }
     }
   }
 }
@@ -123,12 +140,38 @@ TEST(RangeBands, HoldWhatIsSeenInRandomMaps) {
   for (std::uint32_t seed = 0; seed < 16; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const MapWithBands built(floorPlan(randomParams(random), seed), seed % 2 == 0 ? 0.2 : 0.4);
-    const Tally tally = checkCells(built, 80, seed);
-    EXPECT_EQ(tally.outside, 0U) << "of " << tally.rays << ", by " << tally.worst << " m";
-    gaps += tally.in_gaps;
-    rays += tally.rays;
+    for (const Lists lists : {Lists::of_index, Lists::narrowed}) {
+      const Tally tally = checkCells(built, 80, seed, lists);
+      EXPECT_EQ(tally.outside, 0U) << "of " << tally.rays << ", by " << tally.worst << " m";
+      gaps += tally.in_gaps;
+      rays += tally.rays;
+    }
   }
   EXPECT_GT(gaps, rays / 50);  // else they were not tested
+}
+
+TEST(RangeBands, AreAsTightWhereTheirEdgesWereNarrowedDown) {
+  std::mt19937 random(6);
+  std::size_t bins = 0, wider = 0;
+  for (std::uint32_t seed = 0; seed < 12; ++seed) {
+    const MapWithBands built(floorPlan(randomParams(random), seed), 0.25);
+    RangeBandFinder from_all(built.index), from_few(built.index);
+    RangeBands all, few;
+    for (std::size_t i = 0; i < 60; ++i) {
+      const auto& leaf = built.leaves.pieces[random() % built.leaves.pieces.size()];
+      const TPoint2D* polygon = &built.leaves.vertices[leaf.first];
+      from_all.find(polygon, leaf.count, all);
+      from_few.narrow(blockOf(built, leaf));
+      from_few.find(polygon, leaf.count, few);
+      for (std::size_t b = 0; b < kBandBins; ++b) {
+        ++bins;
+        wider += few.wall_low[b] < all.wall_low[b] * (1.0F - 1e-4F) ||
+                 few.wall_high[b] > all.wall_high[b] * (1.0F + 1e-4F) ||
+                 few.gap_high[b] - few.gap_low[b] < all.gap_high[b] - all.gap_low[b] - 0.01F;
+      }
+    }
+  }
+  EXPECT_LT(wider, bins / 500);
 }
 
 TEST(RangeBands, TellANearWallFromWhatIsSeenPastItsEnd) {

@@ -20,7 +20,7 @@ struct TreeOfMap {
   explicit TreeOfMap(PolygonMap polygon_map, int threads = 1)
       : map(std::move(polygon_map)),
         triangulation(map),
-        predictor(triangulation, 2 * kSize, threads),
+        predictor(triangulation, 4 * kSize, threads),
         tree(triangulation, predictor, {kSize, threads}),
         rays(map) {}
 

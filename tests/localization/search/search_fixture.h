@@ -19,7 +19,7 @@ struct SearchedMap {
   explicit SearchedMap(PolygonMap polygon_map)
       : map(std::move(polygon_map)),
         triangulation(map),
-        predictor(triangulation, 2 * kLeafSize, 1),
+        predictor(triangulation, 4 * kLeafSize, 1),
         tree(triangulation, predictor, {kLeafSize, 1}) {}
 
   PolygonMap map;

@@ -79,7 +79,7 @@ TEST_F(SearchIndexFile, RefusesNumbersOfAnotherLayoutWithARightChecksum) {
   // vertices of its walls are numbered otherwise.
   std::istringstream in(content());
   SearchIndex index = readIndex(in, "room.index", asymmetricRoom().hash());
-  for (VisibleEdgeIndex::Run& run : index.edges.runs) run.first = run.first > 0 ? run.first - 1 : 0;
+  for (std::uint8_t& byte : index.edges.runs) byte = byte > 1 ? byte - 1 : byte;
   index.edges.layout ^= 1;
   std::ostringstream out;
   writeIndex(out, index.edges, index.tree, asymmetricRoom().hash());
