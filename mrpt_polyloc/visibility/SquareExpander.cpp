@@ -197,7 +197,8 @@ void SquareExpander::reach(HalfEdge edge, const Cone& cone, Reach reach) {
 void SquareExpander::wait(HalfEdge edge, std::int32_t across) {
   const Node& node = nodes_[static_cast<std::size_t>(across) / 3];
   const float x = node.x - center_x_, y = node.y - center_y_;
-  const float distance = std::sqrt(std::max(x * x + y * y - node.squared_radius, 0.0F));
+  // 0 first: what is no number, of a triangle without area, counts as near.
+  const float distance = std::sqrt(std::max(0.0F, x * x + y * y - node.squared_radius));
   const auto step = static_cast<std::size_t>(std::min(distance * kStepsPerMetre, kMostSteps));
   if (step >= queue_.size()) queue_.resize(step + 1);
   queue_[step].push_back(edge);
