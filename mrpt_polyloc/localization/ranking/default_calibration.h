@@ -5,7 +5,7 @@
 // clang-format off
 /// Written by polyloc-calibrate; do not edit.
 /// polyloc-calibrate SETS --own 1000000 --cluttered 60 --foreign 40
-///   --lost 0.001 --unique-right 0.995 --foreign-unique 0.003 --clutter-weight 0.1
+///   --lost 0.001 --unique-right 0.994 --foreign-unique 0.003 --clutter-weight 0.1
 /// on the sets
 ///   intel (454 scans)
 ///   intel/2 (454 scans)
@@ -48,15 +48,15 @@
 ///   office8/360/office8-0.2.yaml (150 scans)
 namespace mrpt_polyloc::default_calibration {
 
-constexpr double kMatchIntercept = -20.69154;
-constexpr double kLeastMatchProbability = 0.04284718;
-constexpr double kWeightDecay = 9.37414;
-constexpr double kUniqueProbability = 0.9314646;
-constexpr double kPositionFactor = 1.790487;
-constexpr double kHeadingFactor = 1.181889;
+constexpr double kMatchIntercept = -20.82632;
+constexpr double kLeastMatchProbability = 0.04130132;
+constexpr double kWeightDecay = 9.334537;
+constexpr double kUniqueProbability = 0.9298051;
+constexpr double kPositionFactor = 1.790434;
+constexpr double kHeadingFactor = 1.178409;
 /// explained, lead, heading, seen, on_walls
-constexpr std::array<double, 5> kMatchWeights = {1.057459, 10.70416, -1.258707, 3.749505, 11.18016};
+constexpr std::array<double, 5> kMatchWeights = {1.228101, 10.6242, -1.292114, 3.643382, 11.14023};
 /// of kLostShares
-constexpr std::array<double, 8> kLostThresholds = {3.044822e-05, 0.04284718, 0.07897763, 0.2626579, 0.4284091, 0.5186199, 0.6339599, 0.7627498};
+constexpr std::array<double, 8> kLostThresholds = {2.838163e-05, 0.04130132, 0.07736818, 0.1971761, 0.3913548, 0.5241123, 0.6291104, 0.7631415};
 
 }  // namespace mrpt_polyloc::default_calibration
