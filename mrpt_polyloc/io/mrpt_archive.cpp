@@ -3,6 +3,8 @@
 
 #include <mrpt/serialization/CArchive.h>
 
+#include <new>
+
 namespace mrpt_polyloc {
 
 std::string plainMessage(const std::exception& error) {
@@ -57,6 +59,8 @@ mrpt::serialization::CSerializable::Ptr readObject(GzInputStream& stream, std::s
     return archive.ReadObject();
   } catch (const FormatError&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw FormatError(stream.path(), place, "asks for more memory than there is: damaged");
   } catch (const std::exception& error) {
     if (stream.atEnd()) throw FormatError(stream.path(), place, "the file ends inside it");
     throw FormatError(stream.path(), place, "not a readable MRPT object: " + plainMessage(error));

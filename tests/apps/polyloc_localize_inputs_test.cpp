@@ -1,9 +1,12 @@
 #include "PolylocLocalizeTest.h"
 
 #include <gmock/gmock.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
 #include <filesystem>
+#include <sys/resource.h>
 
 namespace mrpt_polyloc::test {
 namespace {
@@ -123,6 +126,40 @@ TEST_F(PolylocLocalize, ScansWithoutInformationHaveOneRowOfRankZero) {
   EXPECT_THAT(lines[2], StartsWith("1,1000000001.000000,too_few_beams,0,,,,,,,,,"));
   EXPECT_THAT(fieldsOf(lines[1]), SizeIs(kColumns));
   EXPECT_EQ(lines[1].substr(lines[1].size() - 10), ",0.0000,0,");  // match, listed, no covariance
+}
+
+/// While it lives, this process and those that it starts get no more memory than this [bytes].
+class MemoryLimit {
+ public:
+  explicit MemoryLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_DATA, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_DATA, &limit);
+  }
+  ~MemoryLimit() { setrlimit(RLIMIT_DATA, &before_); }
+  MemoryLimit(const MemoryLimit&) = delete;
+  MemoryLimit& operator=(const MemoryLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(PolylocLocalize, AStoredScanThatAsksForMoreMemoryThanThereIsIsRefused) {
+  mrpt::obs::CObservation2DRangeScan scan;
+  scan.resizeScanAndAssign(0x3039, 1.0F, true);
+  mrpt::io::CMemoryStream stream;
+  mrpt::serialization::archiveFrom<mrpt::io::CStream>(stream) << scan;
+  std::string bytes(static_cast<const char*>(stream.getRawBufferData()),
+                    stream.getTotalBytesCount());
+  const std::size_t count = bytes.find(std::string("\x39\x30\0\0", 4));
+  ASSERT_NE(count, std::string::npos);
+  bytes.replace(count, 4, "\xf0\xff\xff\xff");  // 4 G readings: 17 GB
+  const std::string log = write("hostile.rawlog", bytes);
+  const MemoryLimit limit(1'500'000'000);
+  const Outcome outcome = run("polyloc-localize", {"--map", roomFile(), "--scans", log});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.err, "polyloc-localize: " + log +
+                             ": object 0: asks for more memory than there is: damaged\n");
 }
 
 TEST_F(PolylocLocalize, BadScanFilesFailWithAMessage) {
