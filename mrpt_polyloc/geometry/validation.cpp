@@ -2,6 +2,7 @@
 #include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/geometry/border_tracing.h>
 #include <mrpt_polyloc/geometry/findings.h>
+#include <mrpt_polyloc/geometry/map_limits.h>
 #include <mrpt_polyloc/geometry/polygon_verdicts.h>
 #include <mrpt_polyloc/geometry/validation.h>
 

@@ -58,9 +58,6 @@ constexpr double kMaxAmbiguousArea = 0.01;
 /// ... and at most this fraction of the polygon's free area.
 constexpr double kMaxAmbiguousFraction = 1e-4;
 
-/// Maps of more vertices, in the file, are refused.
-constexpr std::size_t kMaxMapVertices = 5'000'000;
-
 /// More crossings and overlaps of edges than this are not listed: the map is refused.
 constexpr std::size_t kMaxContacts = 10000;
 
@@ -77,9 +74,8 @@ constexpr std::size_t kMaxContacts = 10000;
 /// where a wall and an open edge coincide, the wall stands. Walls beyond are only rid of repeated
 /// points.
 ///
-/// Everything else is refused: more than kMaxMapVertices, coordinates that are not finite or beyond
-/// kMaxCoordinate, outer rings of zero area, larger crossings, components that overlap or share an
-/// edge.
+/// Everything else is refused: coordinates that are not finite or beyond kMaxCoordinate, outer
+/// rings of zero area, larger crossings, components that overlap or share an edge.
 ///
 /// Exact: orientations are decided without rounding; crossing points are rounded to doubles and the
 /// result is free of crossings as it stands. O(n log n) in vertices for maps as they are found; the

@@ -25,7 +25,7 @@ PolygonMap fixedRoom() {
   return room;
 }
 
-RangeScan fixedScan() {
+const RangeScan& fixedScan() {
   static const RangeScan scan = [] {
     constexpr double kHeading = 1.0, kTurn = 6.283185307179586;
     const double sides[] = {-1.0, 3.0};  // the room's walls, seen from (1, 1), but for its corner

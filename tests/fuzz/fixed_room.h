@@ -11,7 +11,7 @@ namespace mrpt_polyloc::fuzz {
 PolygonMap fixedRoom();
 
 /// What is seen in it from (1, 1), ahead of 1 rad, by 36 beams all around.
-RangeScan fixedScan();
+const RangeScan& fixedScan();
 
 /// What MapIndex::save() writes of the room.
 std::string fixedIndex();

@@ -71,7 +71,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 #endif
 
 // A file may ask for more memory than there is. Machines differ in how they say so; here as little
-// as half a gigabyte is refused, as an exception, in the one way that C++ has.
+// as half a gigabyte is refused, as an exception, in the one way that C++ has. What is taken in
+// other ways, as MRPT takes the readings of a scan, address sanitizer refuses as much of; without
+// it a limit of the process does, see replay.cpp.
+extern "C" const char* __asan_default_options() {
+  return "max_allocation_size_mb=512:allocator_may_return_null=1:detect_leaks=0";
+}
+
 namespace {
 constexpr std::size_t kMostBytes = std::size_t{1} << 29U;
 
@@ -88,6 +94,12 @@ void* operator new(std::size_t size) {
 void* operator new[](std::size_t size) {
   return allocate(size);
 }
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  return size > kMostBytes ? nullptr : std::malloc(size == 0 ? 1 : size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  return size > kMostBytes ? nullptr : std::malloc(size == 0 ? 1 : size);
+}
 void operator delete(void* memory) noexcept {
   std::free(memory);
 }
@@ -98,5 +110,11 @@ void operator delete(void* memory, std::size_t /*size*/) noexcept {
   std::free(memory);
 }
 void operator delete[](void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, const std::nothrow_t& /*tag*/) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, const std::nothrow_t& /*tag*/) noexcept {
   std::free(memory);
 }

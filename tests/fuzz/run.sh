@@ -23,8 +23,7 @@ build="build-fuzz"
 "$build/bin/fuzz_replay" --write-seeds "$build/seeds"
 mkdir -p "$build/findings"
 
-# A bad_alloc is what a hostile size shall end in. Leaks of MRPT's registries are not ours.
-export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
+export UBSAN_OPTIONS=print_stacktrace=1
 found=0
 for target in "${targets[@]}"; do
   corpus=$build/corpus/$target log=$build/findings/$target.log

@@ -2,16 +2,21 @@
 
 #include "tests/support/bridge_files.h"
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/geometry/map_limits.h>
 #include <mrpt_polyloc/geometry/validation.h>
 #include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/ScanLog.h>
 #include <mrpt_polyloc/io/drive_log.h>
 #include <mrpt_polyloc/io/gray_image.h>
+#include <mrpt_polyloc/io/grid_maps.h>
 #include <mrpt_polyloc/io/limits.h>
+#include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/io/replay_log.h>
 #include <mrpt_polyloc/io/scan_files.h>
 
 #include <gtest/gtest.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/obs/CSensoryFrame.h>
 
 #include <filesystem>
 #include <random>
@@ -20,6 +25,7 @@
 namespace mrpt_polyloc::test {
 namespace {
 
+using mrpt::obs::CObservation2DRangeScan;
 using Limits = QuietTest;
 
 std::string carmenLine(std::size_t beams) {
@@ -83,8 +89,48 @@ TEST_F(Limits, BeamsOfRawlogs) {
   std::mt19937 random(1);
   const std::string path = dir_.file("a.rawlog");
   writeFile(path, serialised(randomObservation(random, kMaxBeams + 1)));
-  const std::string wanted = "object 0: scan of sensor 'LASER': more than 100000 beams";
-  EXPECT_NE(formatErrorOf([&] { loadScans(path); }).find(wanted), std::string::npos);
+  EXPECT_EQ(formatErrorOf([&] { loadScans(path); }),
+            path + ": object 0: a scan of more than 100000 beams");
+  EXPECT_THROW(toLoggedScan(randomObservation(random, kMaxBeams + 1)), std::invalid_argument);
+}
+
+/// A stored object with the first number `from` in it replaced.
+std::string restated(std::string bytes, const std::string& from, const std::string& to) {
+  const std::size_t at = bytes.find(from);
+  EXPECT_NE(at, std::string::npos);
+  return bytes.replace(at, from.size(), to);
+}
+
+TEST_F(Limits, StatedSizesOfStoredScans) {
+  std::mt19937 random(1);
+  const std::string count("\x39\x30\0\0", 4);  // 12345
+  const std::string one = serialised(randomObservation(random, 5));
+  const std::string hostile =
+      restated(serialised(randomObservation(random, 12345)), count, "\xf0\xff\xff\xff");
+  mrpt::obs::CSensoryFrame frame;
+  frame.insert(std::make_shared<CObservation2DRangeScan>(randomObservation(random, 5)));
+  frame.insert(std::make_shared<CObservation2DRangeScan>(randomObservation(random, 12345)));
+  const std::string path = dir_.file("a.rawlog");
+  for (const std::string& second :
+       {hostile, restated(serialised(frame), count, "\xff\xff\xff\x7f")}) {
+    writeFile(path, one + second);
+    EXPECT_EQ(formatErrorOf([&] { loadScans(path); }),
+              path + ": object 1: a scan of more than 100000 beams");
+  }
+}
+
+TEST_F(Limits, StatedLimitsOfGrids) {
+  const mrpt::maps::COccupancyGridMap2D grid(-1, 1, -1, 3, 0.5F);
+  const std::string bytes = serialised(grid), three("\0\0\x40\x40", 4);
+  const std::string path = dir_.file("a.gridmap");
+  writeFile(path, bytes);
+  EXPECT_EQ(loadGridMap(path).height, 8);
+  writeFile(path, restated(bytes, three, std::string("\0\0\x40\x7f", 4)));  // 2.6e38 m
+  EXPECT_EQ(formatErrorOf([&] { loadGridMap(path); }),
+            path + ": object 0: the grid's resolution or limits are out of range");
+  writeFile(path, restated(bytes, three, std::string("\0\0\x40\x4c", 4)));  // 5e7 m
+  EXPECT_EQ(formatErrorOf([&] { loadGridMap(path); }),
+            path + ": object 0: a grid of more than 400000000 cells");
 }
 
 TEST_F(Limits, Scans) {
