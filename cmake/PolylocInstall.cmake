@@ -18,7 +18,9 @@ install(
   TARGETS ${polyloc_installed}
   EXPORT mrpt_polylocTargets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+          COMPONENT library
+          NAMELINK_COMPONENT development
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
 
 # The public interface: what a user includes, and what that reaches. The test package.consumer
 # compiles each of these by itself against the installed ones alone.
@@ -111,19 +113,21 @@ set(POLYLOC_PUBLIC_HEADERS
 foreach(header IN LISTS POLYLOC_PUBLIC_HEADERS)
   get_filename_component(folder "${header}" DIRECTORY)
   install(FILES "${PROJECT_SOURCE_DIR}/mrpt_polyloc/${header}"
-          DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/mrpt_polyloc/${folder}")
+          DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/mrpt_polyloc/${folder}" COMPONENT development)
 endforeach()
 list(LENGTH POLYLOC_PUBLIC_HEADERS count)
 math(EXPR count "${count} + 1") # version.h
 set(POLYLOC_INSTALLED_HEADERS ${count} CACHE INTERNAL "Number of installed headers")
 install(FILES "${PROJECT_BINARY_DIR}/generated/mrpt_polyloc/version.h"
-        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/mrpt_polyloc")
-install(FILES "${PROJECT_SOURCE_DIR}/package.xml" DESTINATION "${CMAKE_INSTALL_DATADIR}/mrpt_polyloc")
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/mrpt_polyloc" COMPONENT development)
+install(FILES "${PROJECT_SOURCE_DIR}/package.xml"
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/mrpt_polyloc" COMPONENT development)
 
 install(
   EXPORT mrpt_polylocTargets
   NAMESPACE mrpt_polyloc::
-  DESTINATION "${package_dir}")
+  DESTINATION "${package_dir}"
+  COMPONENT development)
 configure_package_config_file(
   "${PROJECT_SOURCE_DIR}/cmake/mrpt_polylocConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/mrpt_polylocConfig.cmake" INSTALL_DESTINATION "${package_dir}")
@@ -132,4 +136,4 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/mrpt_polylocConfigVersio
 install(FILES "${PROJECT_BINARY_DIR}/mrpt_polylocConfig.cmake"
               "${PROJECT_BINARY_DIR}/mrpt_polylocConfigVersion.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/PolylocMrpt.cmake"
-        DESTINATION "${package_dir}")
+        DESTINATION "${package_dir}" COMPONENT development)

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# on_debian.sh RELEASE [demo|tests]: runs a command of the README (demo: apps/demo.sh, the default;
-# tests: tests/run.sh) on a clean Debian of that release: bookworm, trixie or forky. It finds what a
-# newcomer would meet and what this machine hides because something is installed here by chance.
+# on_debian.sh RELEASE [demo|tests|packages]: runs a command of the README (demo: apps/demo.sh, the
+# default; tests: tests/run.sh) on a clean Debian of that release: bookworm, trixie or forky. It
+# finds what a newcomer would meet and what this machine hides because something is installed here
+# by chance. packages: makes the Debian packages on one such system, then installs, uses and removes
+# them on another, see tests/package/.
 #
 # Needs root and debootstrap. The bare system is made once and kept in
 # ${XDG_CACHE_HOME:-$HOME/.cache}/mrpt_polyloc-debian, or in the folder that POLYLOC_DEBIAN_CACHE
@@ -16,7 +18,7 @@
 set -euo pipefail
 
 usage() {
-  echo "usage: on_debian.sh bookworm|trixie|forky [demo|tests]" >&2
+  echo "usage: on_debian.sh bookworm|trixie|forky [demo|tests|packages]" >&2
   exit 2
 }
 
@@ -32,8 +34,9 @@ case "$release" in
   *) usage ;;
 esac
 case "${2-demo}" in
-  demo) command=apps/demo.sh ;;
-  tests) command=tests/run.sh ;;
+  demo) commands=(apps/demo.sh) ;;
+  tests) commands=(tests/run.sh) ;;
+  packages) commands=(tests/package/make_packages.sh tests/package/use_packages.sh) ;;
   *) usage ;;
 esac
 [ "$(id -u)" -eq 0 ] || fail "needs root, to make a system and enter it"
@@ -53,6 +56,7 @@ ccache=$cache/ccache-$release
 mkdir -p "$packages/partial" "$ccache"
 
 root= # the folder that is removed at the end
+out=  # another: what one command leaves for the next
 job=  # the process that is ended before
 
 # Ends the job, then removes its folder. Again after a second, if a process on its way out still
@@ -66,6 +70,7 @@ clean_up() {
   if [ -n "$root" ]; then
     rm -rf "$root" 2> /dev/null || { sleep 1 && rm -rf "$root"; }
   fi
+  if [ -n "$out" ]; then rm -rf "$out"; fi
 }
 trap clean_up EXIT
 trap 'exit 129' HUP
@@ -107,19 +112,22 @@ if [ ! -d "$base" ]; then
   root=
 fi
 
-echo "== copy the bare $release and the project"
-root=$(mktemp -d "$cache/run-$release-XXXXXX")
-cp -a "$base/." "$root"
-# Names are looked up and packages fetched as on this machine.
-cp -L /etc/resolv.conf /etc/hosts "$root/etc/"
-apt-config dump | grep -E '^Acquire::(https?::Proxy|Check-Date|Check-Valid-Until) ' \
-  > "$root/etc/apt/apt.conf.d/99as-outside" || true
-mkdir "$root/ccache" "$root/data" "$root/mrpt_polyloc"
-# A tracked file that is gone from the work tree is left out.
-git -c safe.directory="$project" -C "$project" ls-files -z |
-  while IFS= read -r -d '' file; do
-    if [ -e "$project/$file" ]; then printf '%s\0' "$file"; fi
-  done | tar -C "$project" --null -T - -c | tar -C "$root/mrpt_polyloc" -x
+# make_root: a copy of the bare system with the project in it.
+make_root() {
+  echo "== copy the bare $release and the project"
+  root=$(mktemp -d "$cache/run-$release-XXXXXX")
+  cp -a "$base/." "$root"
+  # Names are looked up and packages fetched as on this machine.
+  cp -L /etc/resolv.conf /etc/hosts "$root/etc/"
+  apt-config dump | grep -E '^Acquire::(https?::Proxy|Check-Date|Check-Valid-Until) ' \
+    > "$root/etc/apt/apt.conf.d/99as-outside" || true
+  mkdir "$root/ccache" "$root/data" "$root/out" "$root/mrpt_polyloc"
+  # A tracked file that is gone from the work tree is left out.
+  git -c safe.directory="$project" -C "$project" ls-files -z |
+    while IFS= read -r -d '' file; do
+      if [ -e "$project/$file" ]; then printf '%s\0' "$file"; fi
+    done | tar -C "$project" --null -T - -c | tar -C "$root/mrpt_polyloc" -x
+}
 
 environment=(
   PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
@@ -128,17 +136,18 @@ environment=(
   ${data:+POLYLOC_DATA=/data}
 )
 
-# enter ROOT PACKAGES CCACHE DATA COMMAND...: mounts what the system needs below ROOT, and runs
+# enter ROOT PACKAGES CCACHE OUT DATA COMMAND...: mounts what the system needs below ROOT, and runs
 # COMMAND in it.
 enter() {
-  local root=$1 packages=$2 ccache=$3 data=$4
-  shift 4
+  local root=$1 packages=$2 ccache=$3 out=$4 data=$5
+  shift 5
   mount -t proc proc "$root/proc"
   mount -t sysfs -o ro sysfs "$root/sys"
   mount -t devpts -o newinstance,ptmxmode=666 devpts "$root/dev/pts"
   mount -t tmpfs -o mode=1777 tmpfs "$root/dev/shm"
   mount --bind "$packages" "$root/var/cache/apt/archives"
   mount --bind "$ccache" "$root/ccache"
+  mount --bind "$out" "$root/out"
   if [ -n "$data" ]; then
     mount --bind "$data" "$root/data"
     mount -o remount,bind,ro "$root/data"
@@ -146,6 +155,13 @@ enter() {
   exec chroot "$root" env -i "$@"
 }
 
-echo "== $release: $command"
-isolated bash -euo pipefail -c "$(declare -f enter); enter \"\$@\"" enter \
-  "$root" "$packages" "$ccache" "$data" "${environment[@]}" bash "/mrpt_polyloc/$command"
+out=$(mktemp -d "$cache/out-$release-XXXXXX")
+chmod 755 "$out"
+for command in "${commands[@]}"; do
+  make_root
+  echo "== $release: $command"
+  isolated bash -euo pipefail -c "$(declare -f enter); enter \"\$@\"" enter \
+    "$root" "$packages" "$ccache" "$out" "$data" "${environment[@]}" bash "/mrpt_polyloc/$command"
+  rm -rf "$root"
+  root=
+done

@@ -1,10 +1,12 @@
 #include "Cli.h"
 
+#include "memory_budget.h"
 #include "parsing.h"
 #include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/version.h>
 
 #include <iostream>
+#include <new>
 #include <utility>
 
 namespace mrpt_polyloc::apps {
@@ -41,6 +43,7 @@ int Program::run(int argc, const char* const* argv, const std::function<int()>& 
   };
   try {
     options_.parse(argc, argv);
+    limitMemory();
     const int code = job();
     if (!std::cout.flush()) throw std::runtime_error("standard output: cannot be written");
     return code;
@@ -55,6 +58,9 @@ int Program::run(int argc, const char* const* argv, const std::function<int()>& 
     return usage(message);
   } catch (const UsageError& error) {
     return usage(error.what());
+  } catch (const std::bad_alloc&) {
+    std::cerr << name_ << ": there is not enough memory\n";
+    return kFailed;
   } catch (const std::exception& error) {
     std::cerr << name_ << ": " << error.what() << '\n';
     return kFailed;

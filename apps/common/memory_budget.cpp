@@ -4,6 +4,7 @@
 #include <mrpt_polyloc/base/number_text.h>
 
 #include <fstream>
+#include <sys/resource.h>
 
 namespace mrpt_polyloc::apps {
 
@@ -22,6 +23,18 @@ std::optional<double> freeMegabytes() {
     if (key == "MemAvailable:" && file >> kilobytes) return kilobytes / 1e3;
   }
   return std::nullopt;
+}
+
+void limitMemory() {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  const std::optional<double> free = freeMegabytes();
+  rlimit limit{};
+  if (!free || getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  const auto most = static_cast<rlim_t>(1e6 * *free);
+  if (limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur <= most) return;
+  limit.rlim_cur = most;
+  setrlimit(RLIMIT_DATA, &limit);
+#endif
 }
 
 void requireMemory(const std::string& path, const PolygonMap& map, const MapIndexParams& params,

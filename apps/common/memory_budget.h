@@ -18,6 +18,11 @@ void addMemoryOption(CLI::App& cli, std::optional<double>& megabytes);
 void requireMemory(const std::string& path, const PolygonMap& map, const MapIndexParams& params,
                    const std::optional<double>& allowed);
 
+/// Makes the system refuse this process more memory than is free now, so that a file
+/// that asks for more fails as an error, and the machine does not swap. A lower limit that is set
+/// already stays. Does nothing where the system does not tell, or under a sanitizer.
+void limitMemory();
+
 /// What new programs can take without swapping [MB], as the system says; none if it does not.
 std::optional<double> freeMegabytes();
 

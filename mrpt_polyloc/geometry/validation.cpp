@@ -2,6 +2,7 @@
 #include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/geometry/border_tracing.h>
 #include <mrpt_polyloc/geometry/findings.h>
+#include <mrpt_polyloc/geometry/map_limits.h>
 #include <mrpt_polyloc/geometry/polygon_verdicts.h>
 #include <mrpt_polyloc/geometry/validation.h>
 
@@ -13,6 +14,23 @@ namespace {
 
 /// Defects that an error message lists one by one.
 constexpr std::size_t kListedDefects = 10;
+
+std::size_t vertexCount(const RawMap& raw) {
+  std::size_t count = 0;
+  for (const RawPolygon& polygon : raw.polygons) {
+    count += polygon.outer.vertices.size();
+    for (const Ring& hole : polygon.holes) count += hole.vertices.size();
+  }
+  for (const Polyline& walls : raw.walls_beyond) count += walls.size();
+  return count;
+}
+
+MapInspection refusedAsTooLarge() {
+  MapInspection inspection;
+  inspection.defects = inspection.unrepaired = {
+      {"more than " + std::to_string(kMaxMapVertices) + " vertices, in the whole map", {0, 0}}};
+  return inspection;
+}
 
 /// Puts the polygons together whose rings can stay as they are, and those traced again.
 std::vector<FreePolygon> assemble(const std::vector<CleanRing>& rings,
@@ -77,6 +95,7 @@ std::vector<FreePolygon> resolve(const std::vector<CleanRing>& rings, std::size_
 }  // namespace
 
 MapInspection inspectMap(const RawMap& raw) {
+  if (vertexCount(raw) > kMaxMapVertices) return refusedAsTooLarge();
   Findings findings;
   std::vector<Polyline> walls = cleanWalls(raw.walls_beyond, findings);
   const std::vector<CleanRing> rings = cleanRings(raw.polygons, findings);

@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/io/GzInputStream.h>
+#include <mrpt_polyloc/io/limits.h>
 
 #include <algorithm>
 #include <array>
@@ -207,9 +208,11 @@ class GzInputStream::Source {
 GzInputStream::GzInputStream(const std::string& path, AtCut at_cut) : path_(path) {
   requireRegularFile(path_);
   Source check(path_, at_cut);
+  content_bytes_ = std::filesystem::file_size(path_);
   if (check.isCompressed()) {
     while (check.fill()) check.skip(check.unreadCount());
     if (check.position() == 0) throw FormatError(path_, "", "empty file (nothing was compressed)");
+    content_bytes_ = check.position();
     cut_ = check.cut();
   }
   source_ = std::make_unique<Source>(path_, at_cut);
@@ -240,6 +243,10 @@ bool GzInputStream::readLine(std::string& line) {
 }
 
 std::string GzInputStream::readAll() {
+  if (content_bytes_ > kMaxWholeFile) {
+    throw FormatError(path_, "",
+                      "more than " + std::to_string(kMaxWholeFile >> 20U) + " MiB of content");
+  }
   std::string content;
   while (source_->fill()) {
     content.append(source_->unread(), source_->unread() + source_->unreadCount());

@@ -49,6 +49,7 @@ class POLYLOC_EXPORT GzInputStream : public mrpt::io::CStream {
   /// The next line without its end ("\n" or "\r\n"); false at the end of the file.
   bool readLine(std::string& line);
   /// All of the content from here on.
+  /// \throws FormatError before anything is read, if the content is more than kMaxWholeFile
   std::string readAll();
 
   /// Reads `count` bytes, fewer only at the end of the file.
@@ -67,6 +68,7 @@ class POLYLOC_EXPORT GzInputStream : public mrpt::io::CStream {
 
   std::string path_;
   std::string cut_;
+  std::uint64_t content_bytes_ = 0;  ///< decompressed
   bool line_had_end_ = false;
   std::unique_ptr<Source> source_;
 };

@@ -4,6 +4,7 @@
 #include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/carmen.h>
 #include <mrpt_polyloc/io/carmen_line.h>
+#include <mrpt_polyloc/io/limits.h>
 #include <mrpt_polyloc/io/scan_stream.h>
 #include <mrpt_polyloc/io/sensor_labels.h>
 #include <mrpt_polyloc/io/sensor_survey.h>
@@ -93,7 +94,9 @@ constexpr std::size_t kRobotLaserTail = 14;
 constexpr std::size_t kRawLaserTail = 3;
 
 std::vector<double> readRanges(CarmenLine& line) {
-  std::vector<double> ranges(line.count("number of readings"));
+  const std::size_t count = line.count("number of readings");
+  if (count > kMaxBeams) line.fail("more than " + std::to_string(kMaxBeams) + " readings");
+  std::vector<double> ranges(count);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     ranges[i] = line.number("reading", i);
   }
@@ -278,6 +281,7 @@ class Reader {
     scan.place = "line " + std::to_string(number);
     labels_.push_back(keyword);
     numbers_.push_back(number);
+    requireScans(path_, scan.place, labels_.size(), options_.max_scans);
     take(std::move(scan));
   }
 

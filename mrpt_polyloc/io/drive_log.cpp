@@ -2,6 +2,7 @@
 #include <mrpt_polyloc/io/carmen.h>
 #include <mrpt_polyloc/io/drive_log.h>
 #include <mrpt_polyloc/io/file_extension.h>
+#include <mrpt_polyloc/io/limits.h>
 #include <mrpt_polyloc/io/mrpt_archive.h>
 #include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/io/sensor_labels.h>
@@ -141,9 +142,12 @@ std::optional<TPose2D> odometryAt(const DriveScan& scan,
 std::vector<DriveScan> readRawlog(const std::string& path, const ScanFileOptions& options,
                                   Notes* notes) {
   RawlogReader reader(path, options.sensor_label);
-  readObjects(
-      path, options.strict, notes,
-      [&](const CSerializable::Ptr& object, std::size_t index) { reader.add(object, index); });
+  readObjects(path, options.strict, notes,
+              [&](const CSerializable::Ptr& object, std::size_t index) {
+                reader.add(object, index);
+                requireScans(path, "object " + std::to_string(index), reader.scans.size(),
+                             options.max_scans);
+              });
   std::vector<std::string> labels;
   for (const DriveScan& entry : reader.scans) labels.push_back(entry.scan.label);
   std::vector<DriveScan> scans;

@@ -1,7 +1,10 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/GuardedStream.h>
 #include <mrpt_polyloc/io/mrpt_archive.h>
 
 #include <mrpt/serialization/CArchive.h>
+
+#include <new>
 
 namespace mrpt_polyloc {
 
@@ -52,12 +55,16 @@ void readObjects(
 mrpt::serialization::CSerializable::Ptr readObject(GzInputStream& stream, std::size_t index) {
   const std::string place = "object " + std::to_string(index);
   if (stream.atEnd()) throw FormatError(stream.path(), place, "the file ends before it");
-  auto archive = mrpt::serialization::archiveFrom<mrpt::io::CStream>(stream);
+  GuardedStream guarded(stream);
+  auto archive = mrpt::serialization::archiveFrom<mrpt::io::CStream>(guarded);
   try {
     return archive.ReadObject();
   } catch (const FormatError&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw FormatError(stream.path(), place, "asks for more memory than there is: damaged");
   } catch (const std::exception& error) {
+    if (!guarded.refusal().empty()) throw FormatError(stream.path(), place, guarded.refusal());
     if (stream.atEnd()) throw FormatError(stream.path(), place, "the file ends inside it");
     throw FormatError(stream.path(), place, "not a readable MRPT object: " + plainMessage(error));
   }

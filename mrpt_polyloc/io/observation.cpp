@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/io/limits.h>
 #include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/io/readings.h>
 
@@ -43,6 +44,9 @@ LoggedScan toLoggedScan(const mrpt::obs::CObservation2DRangeScan& observation) {
     refuse(observation, "its aperture is negative or not finite");
   }
   const std::size_t count = observation.getScanSize();
+  if (count > kMaxBeams) {
+    refuse(observation, "more than " + std::to_string(kMaxBeams) + " beams");
+  }
   const double sweep = rightToLeft(observation) ? aperture : -aperture;
 
   LoggedScan scan;

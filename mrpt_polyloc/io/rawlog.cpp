@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/limits.h>
 #include <mrpt_polyloc/io/mrpt_archive.h>
 #include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/io/rawlog.h>
@@ -38,9 +39,13 @@ void forEachScan(const mrpt::serialization::CSerializable::Ptr& object, const Ta
   }
 }
 
+std::string placeOf(std::size_t object) {
+  return "object " + std::to_string(object);
+}
+
 /// \throws FormatError naming the object for a scan that cannot be used
 LoggedScan placedScan(const std::string& path, const StoredScan& stored) {
-  const std::string place = "object " + std::to_string(stored.object);
+  const std::string place = placeOf(stored.object);
   try {
     LoggedScan scan = toLoggedScan(*stored.scan);
     scan.place = place;
@@ -57,6 +62,7 @@ std::vector<RangeScan> loadRawlog(const std::string& path, const ScanFileOptions
   std::vector<StoredScan> stored;
   readObjects(path, options.strict, notes, [&](const auto& object, std::size_t index) {
     forEachScan(object, [&](auto scan) { stored.push_back({std::move(scan), index}); });
+    requireScans(path, placeOf(index), stored.size(), options.max_scans);
   });
 
   std::vector<std::string> labels;
@@ -81,6 +87,7 @@ ScanStreamEnd streamRawlog(const std::string& path, const ScanFileOptions& optio
       // Those of other sensors keep their number, and nothing else.
       take(is_wanted ? placedScan(path, {std::move(scan), index}) : LoggedScan{});
     });
+    requireScans(path, placeOf(index), labels.size(), options.max_scans);
   });
   return {selectSensor(path, labels, options.sensor_label), {}};
 }

@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/base/params_check.h>
+#include <mrpt_polyloc/io/limits.h>
 #include <mrpt_polyloc/io/mrpt_archive.h>
 #include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/io/replay_log.h>
@@ -188,9 +189,12 @@ std::vector<ReplayStep> loadReplayLog(const std::string& path, const ScanFileOpt
                                       const OdometryNoise& noise, Notes* notes) {
   noise.check();
   Collector collector(path);
-  readObjects(
-      path, options.strict, notes,
-      [&](const CSerializable::Ptr& object, std::size_t index) { collector.add(object, index); });
+  readObjects(path, options.strict, notes,
+              [&](const CSerializable::Ptr& object, std::size_t index) {
+                collector.add(object, index);
+                requireScans(path, "object " + std::to_string(index), collector.candidates.size(),
+                             options.max_scans);
+              });
   CActionRobotMovement2D::TMotionModelOptions model;
   model.modelSelection = CActionRobotMovement2D::mmGaussian;
   model.gaussianModel.minStdXY = static_cast<float>(noise.min_std_xy);

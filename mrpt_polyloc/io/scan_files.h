@@ -5,6 +5,7 @@
 #include <mrpt_polyloc/io/readings.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct POLYLOC_EXPORT ScanFileOptions {
   ReadingOptions readings;
   /// Refuse a file that ends too early, instead of reading what is whole of it: robots lose power.
   bool strict = false;
+  /// A log of more scans is refused.
+  std::size_t max_scans = 10'000'000;
 };
 
 /// All laser scans of a log, in file order: .rawlog (action/sensory-frame or observations only),
@@ -28,9 +31,9 @@ struct POLYLOC_EXPORT ScanFileOptions {
 /// \param notes gets a sentence for all that was assumed or is missing; may be null
 /// \throws FormatError naming file and place (object, line or byte) for a missing, empty, damaged
 /// or foreign file, one that is cut short (if `options.strict`, or if no scan of it is whole), an
-/// unknown extension, several sensor labels where none is chosen, a label that does not occur, a
-/// sensor that is tilted too much (see SensorTilt), a log without scans. InvalidParamsError for an
-/// option out of range.
+/// unknown extension, more scans than `options.max_scans`, a scan of more than 100,000 beams,
+/// several sensor labels where none is chosen, a label that does not occur, a sensor that is tilted
+/// too much (see SensorTilt), a log without scans. InvalidParamsError for an option out of range.
 POLYLOC_EXPORT std::vector<RangeScan> loadScans(const std::string& path,
                                                 const ScanFileOptions& options = {},
                                                 Notes* notes = nullptr);

@@ -1,6 +1,8 @@
 #include "PolylocLocalizeTest.h"
 
 #include <gmock/gmock.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
 #include <filesystem>
@@ -123,6 +125,23 @@ TEST_F(PolylocLocalize, ScansWithoutInformationHaveOneRowOfRankZero) {
   EXPECT_THAT(lines[2], StartsWith("1,1000000001.000000,too_few_beams,0,,,,,,,,,"));
   EXPECT_THAT(fieldsOf(lines[1]), SizeIs(kColumns));
   EXPECT_EQ(lines[1].substr(lines[1].size() - 10), ",0.0000,0,");  // match, listed, no covariance
+}
+
+TEST_F(PolylocLocalize, AStoredScanThatAsksForMoreMemoryThanThereIsFails) {
+  mrpt::obs::CObservation2DRangeScan scan;
+  scan.resizeScanAndAssign(0x3039, 1.0F, true);
+  mrpt::io::CMemoryStream stream;
+  mrpt::serialization::archiveFrom<mrpt::io::CStream>(stream) << scan;
+  std::string bytes(static_cast<const char*>(stream.getRawBufferData()),
+                    stream.getTotalBytesCount());
+  const std::size_t count = bytes.find(std::string("\x39\x30\0\0", 4));
+  ASSERT_NE(count, std::string::npos);
+  bytes.replace(count, 4, "\xf0\xff\xff\xff");  // 4 G readings: 17 GB
+  const std::string log = write("hostile.rawlog", bytes);
+  const Outcome outcome = run("polyloc-localize", {"--map", roomFile(), "--scans", log});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.err,
+            "polyloc-localize: " + log + ": object 0: a scan of more than 100000 beams\n");
 }
 
 TEST_F(PolylocLocalize, BadScanFilesFailWithAMessage) {
