@@ -51,8 +51,9 @@ void GuardedStream::lookForObject(const unsigned char* bytes, std::size_t count)
   constexpr unsigned kNew = 0x80;
   // Before a name stands its length: not before a label that only looks like one.
   if (name_length_ == count && count > 3) {
-    for (const auto& [kind, name] : {std::pair(Kind::scan, "CObservation2DRangeScan"),
-                                     std::pair(Kind::grid, "COccupancyGridMap2D")}) {
+    for (const auto& [kind, name] :
+         {std::pair(Kind::scan, "CObservation2DRangeScan"),
+          std::pair(Kind::grid, "COccupancyGridMap2D"), std::pair(Kind::simplemap, "CSimpleMap")}) {
       if (isClass(bytes, count, name)) steps_ = {{Field::version, 0, kind, name_is_old_}};
     }
   }
@@ -69,7 +70,8 @@ void GuardedStream::begin(Kind kind, unsigned version, bool is_old) {
   const auto put = [&](Field field, std::size_t bytes = 0, Kind of = Kind::scan) {
     steps_.push_back({field, bytes, of, is_old});
   };
-  const bool is_nested = kind != Kind::scan && kind != Kind::grid;
+  const bool is_nested =
+      kind == Kind::pose || kind == Kind::float_matrix || kind == Kind::double_matrix;
   if (is_nested && !is_old) put(Field::skipped, 1);  // its end flag
   constexpr unsigned kFirstWithoutCovariance = 6;
   switch (kind) {  // the last first
@@ -83,6 +85,9 @@ void GuardedStream::begin(Kind kind, unsigned version, bool is_old) {
       numbers_.clear();
       put(Field::grid_limits);
       if (version >= 2) put(Field::skipped, 1);  // bits of a cell
+      break;
+    case Kind::simplemap:
+      put(Field::pose_count);
       break;
     case Kind::pose:
       if (version == 0) put(Field::length, 0, Kind::float_matrix);
@@ -143,6 +148,11 @@ void GuardedStream::look(const unsigned char* bytes, std::size_t count) {
     case Field::beam_count:
       if (number(bytes) > kMaxBeams) {
         refuse("a scan of more than " + std::to_string(kMaxBeams) + " beams");
+      }
+      break;
+    case Field::pose_count:
+      if (number(bytes) > kMaxMapPoses) {
+        refuse("a simplemap of more than " + std::to_string(kMaxMapPoses) + " poses");
       }
       break;
     default:

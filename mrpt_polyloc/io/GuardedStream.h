@@ -10,10 +10,10 @@ namespace mrpt_polyloc {
 
 /// A file's content on its way to MRPT's classes, which take memory for as many elements as a file
 /// states before they read any: 17 GB for a scan, and MRPT 2 does not notice where it gets none.
-/// This looks at what is read, and ends the reading where a laser scan states more than kMaxBeams
-/// or an occupancy grid more than kMaxBitmapCells.
+/// This looks at what is read, and ends the reading where a laser scan states more than kMaxBeams,
+/// an occupancy grid more than kMaxBitmapCells or a simplemap more than kMaxMapPoses.
 ///
-/// It knows the layouts of those two classes in all their versions; what is laid out otherwise it
+/// It knows the layouts of those three classes in all their versions; what is laid out otherwise it
 /// does not look at.
 class GuardedStream : public mrpt::io::CStream {
  public:
@@ -42,9 +42,10 @@ class GuardedStream : public mrpt::io::CStream {
     rows,  ///< of a matrix
     columns,
     beam_count,
+    pose_count,
     grid_limits,  ///< sizes, limits and resolution: seven reads
   };
-  enum class Kind { scan, grid, pose, float_matrix, double_matrix };
+  enum class Kind { scan, grid, simplemap, pose, float_matrix, double_matrix };
   struct Step {
     Field field;
     std::size_t bytes = 0;   ///< that are skipped

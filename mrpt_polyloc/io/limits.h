@@ -13,6 +13,9 @@ namespace mrpt_polyloc {
 /// Beams of a scan.
 constexpr std::size_t kMaxBeams = 100'000;
 
+/// Poses of a simplemap.
+constexpr std::size_t kMaxMapPoses = 1'000'000;
+
 /// Content of a file that is read at once (polygons, yaml, images, calibrations), decompressed
 /// [bytes]. Logs are read piece by piece.
 constexpr std::size_t kMaxWholeFile = std::size_t{1} << 30U;

@@ -16,7 +16,9 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <filesystem>
 #include <random>
@@ -131,6 +133,17 @@ TEST_F(Limits, StatedLimitsOfGrids) {
   writeFile(path, restated(bytes, three, std::string("\0\0\x40\x4c", 4)));  // 5e7 m
   EXPECT_EQ(formatErrorOf([&] { loadGridMap(path); }),
             path + ": object 0: a grid of more than 400000000 cells");
+}
+
+TEST_F(Limits, StatedPosesOfSimplemaps) {
+  mrpt::maps::CSimpleMap map;
+  for (int i = 0; i < 300; ++i) {
+    map.insert(mrpt::poses::CPose3DPDFGaussian(), mrpt::obs::CSensoryFrame());
+  }
+  const std::string path = dir_.file("a.simplemap");
+  writeFile(path, restated(serialised(map), std::string("\x2c\x01\0\0", 4), "\xff\xff\xff\x7f"));
+  EXPECT_EQ(formatErrorOf([&] { loadSimpleMap(path); }),
+            path + ": object 0: a simplemap of more than 1000000 poses");
 }
 
 TEST_F(Limits, Scans) {
