@@ -3,10 +3,24 @@
 #include <mrpt_polyloc/localization/ranking/valleys.h>
 #include <mrpt_polyloc/localization/scan/BeamSectors.h>
 
+#include <cmath>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace mrpt_polyloc {
+namespace {
+
+/// Gives hypotheses, the heaviest first, the z-scores of which their weights are the softmax.
+void followWeights(std::vector<Hypothesis>& hypotheses, double decay) {
+  const double first = hypotheses.front().weight;
+  for (Hypothesis& hypothesis : hypotheses) {
+    if (hypothesis.weight <= 0.0) continue;  // hopeless: what it was is as good
+    hypothesis.z_score = std::log(first / hypothesis.weight) / decay;
+  }
+}
+
+}  // namespace
 
 Assessment assess(const std::vector<ScoredPose>& poses, const RangeScan& scan, const ScanCost& cost,
                   const HypothesisParams& params, std::size_t max_hypotheses) {
@@ -29,7 +43,9 @@ Assessment assess(const std::vector<ScoredPose>& poses, const RangeScan& scan, c
     const std::vector<std::size_t> of_poses = valleysOf(poses, cost, sectors);
     std::vector<std::size_t> valleys;
     for (const std::size_t i : order) valleys.push_back(of_poses[i]);
+    const std::size_t single = hypotheses.size();
     hypotheses = uniteValleys(hypotheses, valleys);
+    if (hypotheses.size() < single) followWeights(hypotheses, params.calibration.weight_decay);
   }
   if (hypotheses.size() > max_hypotheses) hypotheses.resize(max_hypotheses);
   for (const Hypothesis& hypothesis : hypotheses) result.listed += hypothesis.weight;

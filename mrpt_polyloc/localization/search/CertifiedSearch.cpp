@@ -114,6 +114,9 @@ CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
         settleLeaves(seeds, *certified, refined.cost(), query, scorer, budget, params);
     result.settled = settled.counts;
     result.candidates.insert(result.candidates.end(), settled.optima.begin(), settled.optima.end());
+    std::stable_sort(
+        result.candidates.begin(), result.candidates.end(),
+        [](const PoseCandidate& a, const PoseCandidate& b) { return a.cost < b.cost; });
   }
   for (const TreeDescent::Node& leaf : seeds.leaves()) {
     if (leaf.bound > *certified) continue;
