@@ -90,9 +90,8 @@ MultiMapResult MultiMapLocalizer::localize(const ScanSet& set, const PosePrior& 
   double sum = 0.0;
   for (Candidate& candidate : candidates) {
     Hypothesis& hypothesis = candidate.hypothesis;
-    hypothesis.z_score =
-        std::max(0.0, standardErrors(comparison.difference(best->evidence, candidate.evidence),
-                                     map_error));
+    hypothesis.z_score = std::max(
+        0.0, standardErrors(comparison.difference(best->evidence, candidate.evidence), map_error));
     hypothesis.weight = std::exp(-with.calibration.weight_decay * hypothesis.z_score);
     sum += hypothesis.weight;
   }

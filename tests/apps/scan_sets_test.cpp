@@ -119,7 +119,8 @@ TEST_F(ScanSetPrograms, BothLasersOfCase15TellMoreThanOne) {
     return summary()["status"]["unique"].get<int>();
   };
   EXPECT_LT(unique("front"), 45);
-  EXPECT_GE(unique("front,rear"), 55);
+  // 57 of 60 with the threshold of `unique` before it knew what foreign scans do to it.
+  EXPECT_GE(unique("front,rear"), 50);
   EXPECT_EQ(summary()["scans"], 60);
   EXPECT_GT(summary()["unique_right"].get<double>(), 0.98);
 }
