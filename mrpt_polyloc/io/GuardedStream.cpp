@@ -30,7 +30,9 @@ std::uint32_t number(const unsigned char* bytes) {
 
 std::size_t GuardedStream::Read(void* buffer, std::size_t count) {
   const std::size_t got = stream_.Read(buffer, count);
-  if (got == count && count > 0) look(static_cast<const unsigned char*>(buffer), count);
+  // MRPT would go on with what stood in memory before: for a number of beams, anything.
+  if (got < count) throw std::runtime_error("the content ends");
+  if (count > 0) look(static_cast<const unsigned char*>(buffer), count);
   return got;
 }
 

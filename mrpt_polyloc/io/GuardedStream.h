@@ -11,7 +11,8 @@ namespace mrpt_polyloc {
 /// A file's content on its way to MRPT's classes, which take memory for as many elements as a file
 /// states before they read any: 17 GB for a scan, and MRPT 2 does not notice where it gets none.
 /// This looks at what is read, and ends the reading where a laser scan states more than kMaxBeams,
-/// an occupancy grid more than kMaxBitmapCells or a simplemap more than kMaxMapPoses.
+/// an occupancy grid more than kMaxBitmapCells or a simplemap more than kMaxMapPoses, and where the
+/// content ends.
 ///
 /// It knows the layouts of those three classes in all their versions; what is laid out otherwise it
 /// does not look at.
