@@ -154,18 +154,19 @@ TEST_F(PolylocCalibrate, OnCoarseCellsLessIsUnique) {
   makeSets();
   const auto unique = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {
-        "--map",   path("hall.wkt"),       "--scans", path("hall/scans.rawlog"),
-        "--truth", path("hall/truth.tum"), "-o",      path("eval")};
+        "--map",   path("corridor.wkt"),       "--scans", path("corridor/scans.rawlog"),
+        "--truth", path("corridor/truth.tum"), "-o",      path("eval")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = run("polyloc-eval", arguments);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return json::parse(readFile(path("eval/summary.json")))["status"]["unique"].get<int>();
   };
+  // Nearly its own mirror image.
   EXPECT_GT(unique({}), unique({"--cell-size", "50"}));
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{"--cell-size", "0"}, {"--max-lost", "1.5"}}) {
-    EXPECT_EQ(run("polyloc-localize", {"--map", path("hall.wkt"), "--scans",
-                                       path("hall/scans.rawlog"), more[0], more[1]})
+    EXPECT_EQ(run("polyloc-localize", {"--map", path("corridor.wkt"), "--scans",
+                                       path("corridor/scans.rawlog"), more[0], more[1]})
                   .code,
               2);
   }
