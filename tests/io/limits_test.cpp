@@ -4,6 +4,7 @@
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/geometry/map_limits.h>
 #include <mrpt_polyloc/geometry/validation.h>
+#include <mrpt_polyloc/io/GuardedStream.h>
 #include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/ScanLog.h>
 #include <mrpt_polyloc/io/drive_log.h>
@@ -144,6 +145,16 @@ TEST_F(Limits, StatedPosesOfSimplemaps) {
   writeFile(path, restated(serialised(map), std::string("\x2c\x01\0\0", 4), "\xff\xff\xff\x7f"));
   EXPECT_EQ(formatErrorOf([&] { loadSimpleMap(path); }),
             path + ": object 0: a simplemap of more than 1000000 poses");
+}
+
+TEST_F(Limits, TheEndOfTheContentEndsReading) {
+  const std::string path = dir_.file("a.rawlog");
+  writeFile(path, "12345");
+  GzInputStream file(path);
+  GuardedStream stream(file);
+  char bytes[4] = {};
+  EXPECT_EQ(stream.Read(bytes, 3), 3U);
+  EXPECT_THROW(stream.Read(bytes, 3), std::runtime_error);  // not two bytes, and one of before
 }
 
 TEST_F(Limits, Scans) {

@@ -3,6 +3,7 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
+#include <mrpt_polyloc/localization/CellLocalizer.h>
 #include <mrpt_polyloc/localization/scan/AllowedPoses.h>
 #include <mrpt_polyloc/localization/scan/PoseRefiner.h>
 
@@ -125,6 +126,21 @@ TEST(Laws, TheParamsCostIsWhatHypothesesCost) {
   params.hypotheses.evidence.off_wall_cost = 0.0;
   const auto blind = GlobalLocalizer(index, params).localize(scan);
   EXPECT_NE(blind.status, LocalizationStatus::unique);
+}
+
+TEST(Laws, OnCoarserCellsNoLocalizerIsSurer) {
+  // All that tells four poses of a square room apart is a niche.
+  const PolygonMap drawn =
+      mapOf({{0, 0}, {5, 0}, {5, 2}, {5.4, 2}, {5.4, 2.2}, {5, 2.2}, {5, 5}, {0, 5}});
+  const PolygonMap traced(drawn.components(), {}, 2.0);
+  const RangeScan scan = simulatedScan(drawn, {1.5, 2.1, 0.3});
+  SearchOptions options;
+  options.max_hypotheses = 1;
+  const auto sureness = [&](const auto& localizer) {
+    return localizer.localize(scan, {}, options).hypotheses.at(0).weight;
+  };
+  EXPECT_LT(sureness(GlobalLocalizer(traced)), sureness(GlobalLocalizer(drawn)) - 0.01);
+  EXPECT_LT(sureness(CellLocalizer(traced)), sureness(CellLocalizer(drawn)) - 0.01);
 }
 
 TEST(Laws, ASensorThatIsNowhereIsRefused) {

@@ -39,6 +39,13 @@ MapIndex::Ptr indexOf(const PolygonMap& map) {
   return MapIndex::deferred(map, params);
 }
 
+TEST(TravelPlanner, JudgesScansAsTheMapsCellsAllow) {
+  const PolygonMap map = corridor(true);
+  const MapIndex::Ptr traced = MapIndex::build(PolygonMap(map.components(), {}, 0.2));
+  EXPECT_EQ(TravelPlanner(traced).params().evidence.cell_size, 0.2);
+  EXPECT_EQ(TravelPlanner(indexOf(map)).params().evidence.cell_size, 0.0);
+}
+
 TEST(TravelPlanner, GoesWhereTheScanDiffers) {
   const PolygonMap map = corridor(true);
   const WallSegments walls(map);
