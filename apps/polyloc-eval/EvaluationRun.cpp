@@ -3,7 +3,6 @@
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/stretches.h>
 
-#include <fstream>
 #include <numeric>
 #include <utility>
 
@@ -11,16 +10,6 @@ namespace mrpt_polyloc::apps {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json readJson(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FormatError(path, "", "cannot be read");
-  try {
-    return ordered_json::parse(in);
-  } catch (const std::exception& error) {
-    throw FormatError(path, "", std::string("is damaged: ") + error.what());
-  }
-}
 
 EvaluationJob readJob(const std::string& path) {
   auto job = JobFile(path).read();
@@ -38,10 +27,10 @@ EvaluationJob readJob(const std::string& path) {
 
 EvaluationRun readRun(const std::string& folder) {
   EvaluationRun run;
-  const ordered_json entry = readJson(runPath(folder));
+  const ordered_json entry = readStored(runPath(folder));
   for (const auto& method : entry.at("methods")) run.methods.push_back({method.at("name"), method});
   for (const auto& name : entry.at("datasets")) {
-    EvaluatedDataset dataset{name, readJson(mapPath(folder, name)), {}};
+    EvaluatedDataset dataset{name, readStored(mapPath(folder, name)), {}};
     std::vector<EvaluationJob> jobs;
     for (const EvaluatedMethod& method : run.methods) {
       jobs.push_back(readJob(jobPath(folder, dataset.name, method.name)));

@@ -231,4 +231,14 @@ std::string runPath(const std::string& folder) {
   return folder + "/parts/run.json";
 }
 
+nlohmann::ordered_json readStored(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FormatError(path, "", "cannot be read: no run of polyloc-eval is here");
+  try {
+    return nlohmann::ordered_json::parse(in);
+  } catch (const std::exception& error) {
+    throw FormatError(path, "", std::string("is damaged: ") + error.what());
+  }
+}
+
 }  // namespace mrpt_polyloc::apps

@@ -84,4 +84,7 @@ std::string mapPath(const std::string& folder, const std::string& dataset);
 /// Where it is kept what the run is: {version, datasets, methods, ...}.
 std::string runPath(const std::string& folder);
 
+/// What one of the two holds. \throws FormatError if it is not there or damaged
+nlohmann::ordered_json readStored(const std::string& path);
+
 }  // namespace mrpt_polyloc::apps

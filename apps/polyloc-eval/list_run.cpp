@@ -15,7 +15,6 @@
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <memory>
@@ -109,16 +108,6 @@ ordered_json describe(const EvaluationList& list, const std::string& shard) {
   return run;
 }
 
-ordered_json readJson(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FormatError(path, "", "cannot be read: no run of polyloc-eval is here");
-  try {
-    return ordered_json::parse(in);
-  } catch (const std::exception& error) {
-    throw FormatError(path, "", std::string("is damaged: ") + error.what());
-  }
-}
-
 /// What a killed program had not yet put in its place.
 void removeTemporaries(const std::string& folder) {
   for (const std::string& place : {folder, folder + "/parts", folder + "/estimates"}) {
@@ -140,7 +129,7 @@ void openRun(const ListRunOptions& options, const ordered_json& run) {
   if (!options.resume) {
     throw FormatError(options.folder, "", "holds a run already: --resume goes on with it");
   }
-  const ordered_json there = readJson(path);
+  const ordered_json there = readStored(path);
   for (const auto& item : run.items()) {
     if (!there.contains(item.key()) || there[item.key()] != item.value()) {
       throw FormatError(
@@ -308,7 +297,7 @@ int mergeRuns(const Program&, const std::vector<std::string>& folders, const std
   std::map<std::string, EvaluationJob> jobs;
   std::map<std::string, std::string> maps;
   for (const std::string& part : folders) {
-    ordered_json there = readJson(runPath(part));
+    ordered_json there = readStored(runPath(part));
     there.erase("shard");
     if (run.is_null()) run = there;
     for (const auto& item : run.items()) {
@@ -318,7 +307,7 @@ int mergeRuns(const Program&, const std::vector<std::string>& folders, const std
     }
     for (const auto& dataset : run.at("datasets")) {
       const std::string name = dataset.get<std::string>();
-      const std::string map = readJson(mapPath(part, name)).dump() + "\n";
+      const std::string map = readStored(mapPath(part, name)).dump() + "\n";
       if (!maps.emplace(name, map).second && maps[name] != map) {
         throw FormatError(mapPath(part, name), "", "is another map than in another share");
       }

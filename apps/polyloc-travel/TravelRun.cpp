@@ -186,12 +186,7 @@ TravelSituation TravelRun::situationOf(const TrackingState& state) const {
   const bool knows_enough = knowsEnough(state);
   for (const TrackedHypothesis& tracked : living_) {
     if (!knows_enough) break;
-    Hypothesis hypothesis;
-    hypothesis.pose_map_robot = tracked.pose_map_robot;
-    hypothesis.covariance = tracked.covariance;
-    hypothesis.weight = tracked.weight;
-    hypothesis.cost = tracked.cost;
-    situation.hypotheses.push_back(hypothesis);
+    situation.hypotheses.push_back(tracked.toHypothesis());
   }
   for (const PlacedScan& placed : scans_) {
     if (knows_enough && situation.scans.size() == kRecent) break;

@@ -46,11 +46,7 @@ ordered_json nextWaypoint(const TravelPlanner& planner, const GlobalLocalizer& l
   TravelSituation situation;
   ordered_json hypotheses = ordered_json::array();
   for (const TrackedHypothesis& tracked : state.hypotheses) {
-    Hypothesis hypothesis;
-    hypothesis.pose_map_robot = tracked.pose_map_robot;
-    hypothesis.covariance = tracked.covariance;
-    hypothesis.weight = tracked.weight;
-    situation.hypotheses.push_back(hypothesis);
+    situation.hypotheses.push_back(tracked.toHypothesis());
     const TPose2D& pose = tracked.pose_map_robot;
     hypotheses.push_back(
         {{"x", pose.x}, {"y", pose.y}, {"phi", pose.phi}, {"weight", tracked.weight}});

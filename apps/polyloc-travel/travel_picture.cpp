@@ -77,11 +77,7 @@ std::string travelPicture(const TravelPlanner& planner, const World& world,
     const TravelStep& first = run.steps.front();
     TravelSituation situation;
     for (const TrackedHypothesis& tracked : first.hypotheses) {
-      Hypothesis hypothesis;
-      hypothesis.pose_map_robot = tracked.pose_map_robot;
-      hypothesis.covariance = tracked.covariance;
-      hypothesis.weight = tracked.weight;
-      situation.hypotheses.push_back(hypothesis);
+      situation.hypotheses.push_back(tracked.toHypothesis());
     }
     situation.scans = {{run.first_scan, {0, 0, 0}}};
     if (run.is_ambiguous_at_start) {

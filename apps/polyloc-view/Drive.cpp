@@ -70,12 +70,7 @@ Drive::Json Drive::resultJson(double ms) const {
   result.status = run_.status();
   result.match_probability = 1.0 - run_.noneProbability();
   for (const TrackedHypothesis& tracked : run_.result().steps.back().hypotheses) {
-    Hypothesis hypothesis;
-    hypothesis.pose_map_robot = tracked.pose_map_robot;
-    hypothesis.covariance = tracked.covariance;
-    hypothesis.weight = tracked.weight;
-    hypothesis.cost = tracked.cost;
-    result.hypotheses.push_back(hypothesis);
+    result.hypotheses.push_back(tracked.toHypothesis());
     result.listed += tracked.weight;
   }
   Json json = toJson(result);

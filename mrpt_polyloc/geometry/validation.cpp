@@ -15,16 +15,6 @@ namespace {
 /// Defects that an error message lists one by one.
 constexpr std::size_t kListedDefects = 10;
 
-std::size_t vertexCount(const RawMap& raw) {
-  std::size_t count = 0;
-  for (const RawPolygon& polygon : raw.polygons) {
-    count += polygon.outer.vertices.size();
-    for (const Ring& hole : polygon.holes) count += hole.vertices.size();
-  }
-  for (const Polyline& walls : raw.walls_beyond) count += walls.size();
-  return count;
-}
-
 MapInspection refusedAsTooLarge() {
   MapInspection inspection;
   inspection.defects = inspection.unrepaired = {
@@ -93,6 +83,16 @@ std::vector<FreePolygon> resolve(const std::vector<CleanRing>& rings, std::size_
 }
 
 }  // namespace
+
+std::size_t vertexCount(const RawMap& raw) {
+  std::size_t count = 0;
+  for (const RawPolygon& polygon : raw.polygons) {
+    count += polygon.outer.vertices.size();
+    for (const Ring& hole : polygon.holes) count += hole.vertices.size();
+  }
+  for (const Polyline& walls : raw.walls_beyond) count += walls.size();
+  return count;
+}
 
 MapInspection inspectMap(const RawMap& raw) {
   if (vertexCount(raw) > kMaxMapVertices) return refusedAsTooLarge();

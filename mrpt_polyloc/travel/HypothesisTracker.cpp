@@ -45,6 +45,15 @@ double matchLogOdds(const ScanSet& now, const TPose2D& pose_map_robot, const Set
 
 }  // namespace
 
+Hypothesis TrackedHypothesis::toHypothesis() const {
+  Hypothesis hypothesis;
+  hypothesis.pose_map_robot = pose_map_robot;
+  hypothesis.covariance = covariance;
+  hypothesis.weight = weight;
+  hypothesis.cost = cost;
+  return hypothesis;
+}
+
 void HypothesisTrackerParams::check() const {
   correlation.check();
   requirePositive("most_standard_errors", most_standard_errors);
@@ -266,11 +275,8 @@ LocalizationResult HypothesisTracker::result() const {
   if (state_.status == LocalizationStatus::no_match || !(sum > 0.0)) return result;
   const double decay = localizer_.params().hypotheses.calibration.weight_decay;
   for (const TrackedHypothesis& tracked : state_.hypotheses) {
-    Hypothesis hypothesis;
-    hypothesis.pose_map_robot = tracked.pose_map_robot;
-    hypothesis.covariance = tracked.covariance;
-    hypothesis.weight = tracked.weight / sum;
-    hypothesis.cost = tracked.cost;
+    Hypothesis hypothesis = tracked.toHypothesis();
+    hypothesis.weight /= sum;
     // What one scan that would give these weights would have said.
     hypothesis.z_score = std::log(state_.hypotheses.front().weight / tracked.weight) / decay;
     result.hypotheses.push_back(hypothesis);

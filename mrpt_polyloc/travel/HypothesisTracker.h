@@ -3,6 +3,7 @@
 #include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/LocalizationResult.h>
+#include <mrpt_polyloc/localization/ranking/Hypothesis.h>
 #include <mrpt_polyloc/localization/scan/Motion.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 #include <mrpt_polyloc/localization/scan/ScanSet.h>
@@ -50,6 +51,9 @@ struct POLYLOC_EXPORT TrackedHypothesis {
   /// Probability that it is the robot's pose; those of all and "none of these" sum to 1.
   double weight = 0.0;
   double cost = 0.0;  ///< mean robust cost per beam of the last scans [m]
+
+  /// The same as one scan's hypothesis, not behind any other.
+  Hypothesis toHypothesis() const;
 };
 
 /// What the tracker holds after a scan.

@@ -2,21 +2,12 @@
 
 #include "fuzz_target.h"
 #include <mrpt_polyloc/geometry/PolygonMap.h>
+#include <mrpt_polyloc/geometry/map_limits.h>
 #include <mrpt_polyloc/geometry/validation.h>
 
 #include <cstddef>
 
 namespace mrpt_polyloc::fuzz {
-
-inline std::size_t vertexCount(const RawMap& raw) {
-  std::size_t count = 0;
-  for (const RawPolygon& polygon : raw.polygons) {
-    count += polygon.outer.vertices.size();
-    for (const Ring& hole : polygon.holes) count += hole.vertices.size();
-  }
-  for (const Polyline& walls : raw.walls_beyond) count += walls.size();
-  return count;
-}
 
 /// What was read is refused as a map, or is one with an area, of which its own text says the same.
 /// \param read_again reads the map's text; empty if the format cannot say it
