@@ -1,7 +1,7 @@
 #include <mrpt_polyloc/base/cpu_dispatch.h>
+#include <mrpt_polyloc/localization/search/EdgeBounds.h>
 #include <mrpt_polyloc/localization/search/RangeBands.h>
 #include <mrpt_polyloc/localization/search/angular_slack.h>
-#include <mrpt_polyloc/visibility/fast_atan2.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,62 +18,11 @@ constexpr int kUnwrapped = 4 * kBins;
 constexpr int kFirstTurn = kBins;  ///< where bin 0 of a chain's first vertex is
 /// Loops over bins go in whole blocks; what is beyond the end is masked.
 constexpr int kBlock = 8;
-constexpr std::size_t kVertexBlock = 16;
-constexpr float kUnbounded = 1e9F;  ///< an inverse range that bounds nothing [1/m]
+constexpr float kUnbounded = EdgeBounds::kUnbounded;
 constexpr auto kSlackF = static_cast<float>(kAngularSlack);
 constexpr float kGreatest = 1e4F;  ///< inverse of the least range that is told from 0 [1/m]
 
 using Depths = std::array<float, kUnwrapped + kBlock>;
-
-/// Of each edge of a run, in columns: the lines that bound the Minkowski difference of it and the
-/// leaf. With u the direction of a ray, the ray enters it at an inverse range of at most the least
-/// `near` bound, and leaves it at one of at least the greatest `far` bound.
-struct EdgeColumns {
-  std::vector<float> nx, ny;                  ///< normal of the edge's line, away from the leaf
-  std::vector<float> near_n, far_n;           ///< 1 / its least and greatest distance from the leaf
-  std::vector<float> near_x, far_x;           ///< bounds are near_x * u.x ...
-  std::vector<float> near_y, far_y;           ///< ... and near_y * u.y; 0 where they say nothing
-  std::vector<float> skip_n, skip_x, skip_y;  ///< kUnbounded where the near bound says nothing
-  std::vector<std::int32_t> faces;            ///< whether the edge faces some point of the leaf
-  /// Bins, counted from the turn in which its first vertex is seen: those that the edge may be seen
-  /// in from the leaf, whether its second vertex is a turn on or back, up to where that is past a
-  /// bin from all of the leaf, and from where on it is before one.
-  std::vector<std::int32_t> first, last, turn, past, before;
-
-  void resize(std::size_t count) {
-    for (auto* column :
-         {&nx, &ny, &near_n, &far_n, &near_x, &far_x, &near_y, &far_y, &skip_n, &skip_x, &skip_y}) {
-      column->resize(count);
-    }
-    for (auto* column : {&faces, &first, &last, &turn, &past, &before}) column->resize(count);
-  }
-};
-
-/// The bounds in one coordinate, given the differences' extremes in it.
-POLYLOC_INLINE void boundCoordinate(float low, float high, float& near, float& far, float& skip) {
-  constexpr float kLeast = 1e-6F;
-  const bool is_above = low > kLeast, is_below = high < -kLeast;
-  const float of_low = 1.0F / low, of_high = 1.0F / high;
-  near = is_above ? of_low : is_below ? of_high : 0.0F;
-  far = is_above ? of_high : is_below ? of_low : 0.0F;
-  skip = is_above || is_below ? 0.0F : kUnbounded;
-}
-
-constexpr std::size_t wholeBlocks(std::size_t count) {
-  return (count + kVertexBlock - 1) / kVertexBlock * kVertexBlock;
-}
-
-/// A run with some edges more at both ends. Where a nearer edge ends, a chain behind it blocks a
-/// bin for all of a leaf only if it goes on a little behind the nearer one, where it is not seen.
-BoundaryChains::Run extended(const BoundaryChains& chains, BoundaryChains::Run run) {
-  constexpr int kMore = 8;  // measured: 16 and 30 change nothing more
-  for (int i = 0; i < kMore && run.first > 0 && chains.isEdge(run.first - 1); ++i) {
-    --run.first;
-    ++run.edges;
-  }
-  for (int i = 0; i < kMore && chains.isEdge(run.first + run.edges); ++i) ++run.edges;
-  return run;
-}
 
 }  // namespace
 
@@ -98,17 +47,7 @@ struct RangeBandFinder::Workspace {
   /// Inverse ranges of the chain being followed, since it was before the bin from all of the leaf;
   /// negative where it has been past it since.
   Depths passing;
-  /// A run: its vertices in the layout from `first` on are begin to end - 1 in the columns.
-  struct Stretch {
-    std::size_t first, begin, end;
-  };
-  std::vector<Stretch> stretches;
-  std::vector<float> x, y;           ///< the runs' vertices, relative to the leaf's middle [m]
-  std::vector<float> bearing;        ///< from the middle
-  std::vector<float> before, after;  ///< of the middle's bearing, by how much others differ
-  EdgeColumns edges;                 ///< of the run
-  std::vector<TPoint2D> leaf;        ///< relative to the middle
-  float low_x = 0, high_x = 0, low_y = 0, high_y = 0;  ///< of the leaf
+  EdgeBounds bounds;  ///< of the runs that are followed
   /// Between which inverse ranges edges followed may be hit, bin by bin: of edges one after another
   /// that meet in a bin, as of a wall's pieces, what they reach together.
   struct Hits {
@@ -133,14 +72,6 @@ struct RangeBandFinder::Workspace {
   std::vector<BoundaryChains::Run> narrowed_walls, narrowed_open;
   BoundingBox narrowed = BoundingBox::empty();  ///< what these are seen from
 
-  void takeLeaf(const TPoint2D* vertices, std::size_t count, const TPoint2D& middle);
-  enum class Ends { as_listed, extended };
-  std::size_t gather(const BoundaryChains& chains, const std::vector<BoundaryChains::Run>& runs,
-                     const TPoint2D& middle, Ends ends);
-  void takeBearings(std::size_t count);
-  void boundEdges(std::size_t count);
-  void takeBins(std::size_t count);
-  bool isWithin(std::size_t i) const;
   void joinHits(int block, const std::array<float, kBlock>& enters,
                 const std::array<float, kBlock>& leaves, int count);
   template <bool is_narrowing>
@@ -153,179 +84,12 @@ struct RangeBandFinder::Workspace {
   void followChain(std::size_t begin, std::size_t end);
   template <bool is_narrowing>
   void followRuns(const BoundaryChains& chains, const std::vector<BoundaryChains::Run>& runs,
-                  const TPoint2D& middle, Ends ends);
+                  const TPoint2D& middle, EdgeBounds::Ends ends);
   void keepRuns(const BoundaryChains& chains, const float* farthest,
                 std::vector<BoundaryChains::Run>& runs);
   void ranges(float* low, float* high) const;
   void findGaps(RangeBands& bands);
 };
-
-void RangeBandFinder::Workspace::takeLeaf(const TPoint2D* vertices, std::size_t count,
-                                          const TPoint2D& middle) {
-  leaf.clear();
-  low_x = low_y = kUnbounded;
-  high_x = high_y = -kUnbounded;
-  for (std::size_t k = 0; k < count; ++k) {
-    const TPoint2D p = vertices[k] - middle;
-    leaf.push_back(p);
-    low_x = std::min(low_x, static_cast<float>(p.x));
-    high_x = std::max(high_x, static_cast<float>(p.x));
-    low_y = std::min(low_y, static_cast<float>(p.y));
-    high_y = std::max(high_y, static_cast<float>(p.y));
-  }
-}
-
-/// The runs' vertices, one run after another; returns how many.
-std::size_t RangeBandFinder::Workspace::gather(const BoundaryChains& chains,
-                                               const std::vector<BoundaryChains::Run>& runs,
-                                               const TPoint2D& middle, Ends ends) {
-  stretches.clear();
-  std::size_t vertices = 0;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    BoundaryChains::Run run = runs[r];
-    if (ends == Ends::extended) {
-      run = extended(chains, run);
-      while (r + 1 < runs.size()) {
-        const BoundaryChains::Run next = extended(chains, runs[r + 1]);
-        if (next.first > run.first + run.edges) break;
-        run.edges = std::max(run.edges, next.first + next.edges - run.first);
-        ++r;
-      }
-    }
-    stretches.push_back({run.first, vertices, vertices + run.edges + 1});
-    vertices += run.edges + 1;
-  }
-  const std::size_t room = vertices + 2 * kVertexBlock;
-  if (x.size() < room) {
-    for (auto* column : {&x, &y, &bearing, &before, &after}) column->resize(room);
-    edges.resize(room);
-  }
-  const std::int32_t origin_x = chains.fixedX(middle.x), origin_y = chains.fixedY(middle.y);
-  const auto unit = static_cast<float>(chains.unit());
-  for (const Stretch& stretch : stretches) {
-    for (std::size_t i = stretch.begin, from = stretch.first; i < stretch.end; ++i, ++from) {
-      x[i] = static_cast<float>(chains.x()[from] - origin_x) * unit;
-      y[i] = static_cast<float>(chains.y()[from] - origin_y) * unit;
-    }
-  }
-  return vertices;
-}
-
-/// Directions of the vertices from the middle, and how far to either side of that they are seen
-/// from the leaf's vertices: it is convex and no vertex lies in it, so less than half a turn.
-POLYLOC_HOT_LOOP
-void RangeBandFinder::Workspace::takeBearings(std::size_t count) {
-  const std::size_t end = wholeBlocks(count);
-  const float* __restrict__ xs = x.data();
-  const float* __restrict__ ys = y.data();
-  float* __restrict__ bearings = bearing.data();
-  float* __restrict__ befores = before.data();
-  float* __restrict__ afters = after.data();
-  for (std::size_t i = 0; i < end; ++i) {
-    bearings[i] = atan2Polynomial(ys[i], xs[i]);
-    befores[i] = 0.0F;
-    afters[i] = 0.0F;
-  }
-  for (const TPoint2D& corner : leaf) {
-    const auto cx = static_cast<float>(corner.x), cy = static_cast<float>(corner.y);
-    for (std::size_t i = 0; i < end; ++i) {
-      const float dx = xs[i] - cx, dy = ys[i] - cy;
-      const float turn = atan2Polynomial(xs[i] * dy - ys[i] * dx, xs[i] * dx + ys[i] * dy);
-      befores[i] = std::min(befores[i], turn);
-      afters[i] = std::max(afters[i], turn);
-    }
-  }
-}
-
-/// Fills the columns of the first edges, but for their bins.
-POLYLOC_HOT_LOOP
-void RangeBandFinder::Workspace::boundEdges(std::size_t count) {
-  count = wholeBlocks(count);
-  constexpr float kLeast = 1e-6F;
-  const float* __restrict__ xs = x.data();
-  const float* __restrict__ ys = y.data();
-  float* __restrict__ nx = edges.nx.data();
-  float* __restrict__ ny = edges.ny.data();
-  float* __restrict__ least = edges.near_n.data();
-  float* __restrict__ greatest = edges.far_n.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    const float dx = xs[i + 1] - xs[i], dy = ys[i + 1] - ys[i];
-    const float length = std::sqrt(dx * dx + dy * dy);
-    const float inverse = length > 0.0F ? 1.0F / length : 0.0F;
-    nx[i] = dy * inverse;
-    ny[i] = -dx * inverse;
-    least[i] = kUnbounded;
-    greatest[i] = -kUnbounded;
-  }
-  for (const TPoint2D& corner : leaf) {
-    const auto cx = static_cast<float>(corner.x), cy = static_cast<float>(corner.y);
-    for (std::size_t i = 0; i < count; ++i) {
-      const float d = nx[i] * (xs[i] - cx) + ny[i] * (ys[i] - cy);
-      least[i] = std::min(least[i], d);
-      greatest[i] = std::max(greatest[i], d);
-    }
-  }
-  float* __restrict__ skip_n = edges.skip_n.data();
-  std::int32_t* __restrict__ faces = edges.faces.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    const float inverse = 1.0F / least[i];
-    faces[i] = greatest[i] > kLeast ? 1 : 0;
-    skip_n[i] = least[i] > kLeast ? 0.0F : kUnbounded;
-    least[i] = least[i] > kLeast ? inverse : 0.0F;
-    greatest[i] = 1.0F / greatest[i];
-  }
-  float* __restrict__ near_x = edges.near_x.data();
-  float* __restrict__ far_x = edges.far_x.data();
-  float* __restrict__ skip_x = edges.skip_x.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    boundCoordinate(std::min(xs[i], xs[i + 1]) - high_x, std::max(xs[i], xs[i + 1]) - low_x,
-                    near_x[i], far_x[i], skip_x[i]);
-  }
-  float* __restrict__ near_y = edges.near_y.data();
-  float* __restrict__ far_y = edges.far_y.data();
-  float* __restrict__ skip_y = edges.skip_y.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    boundCoordinate(std::min(ys[i], ys[i + 1]) - high_y, std::max(ys[i], ys[i + 1]) - low_y,
-                    near_y[i], far_y[i], skip_y[i]);
-  }
-}
-
-/// Fills the columns of bins of the first edges.
-POLYLOC_HOT_LOOP
-void RangeBandFinder::Workspace::takeBins(std::size_t count) {
-  count = wholeBlocks(count);
-  constexpr auto kPerRadian = static_cast<float>(1.0 / kBandBinWidth);
-  constexpr auto kTurn = static_cast<float>(kTwoPi);
-  const float* __restrict__ bearings = bearing.data();
-  const float* __restrict__ befores = before.data();
-  const float* __restrict__ afters = after.data();
-  std::int32_t* __restrict__ first = edges.first.data();
-  std::int32_t* __restrict__ last = edges.last.data();
-  std::int32_t* __restrict__ turn = edges.turn.data();
-  std::int32_t* __restrict__ past = edges.past.data();
-  std::int32_t* __restrict__ before_from = edges.before.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    const float step = bearings[i + 1] - bearings[i];
-    const std::int32_t wrap = step < -kPiF ? 1 : step >= kPiF ? -1 : 0;
-    const float next = bearings[i + 1] + static_cast<float>(wrap) * kTurn;
-    const float low = std::min(bearings[i] + befores[i], next + befores[i + 1]) - kSlackF;
-    const float high = std::max(bearings[i] + afters[i], next + afters[i + 1]) + kSlackF;
-    first[i] = static_cast<std::int32_t>(std::floor(low * kPerRadian));
-    last[i] = static_cast<std::int32_t>(std::floor(high * kPerRadian));
-    turn[i] = wrap;
-    past[i] = static_cast<std::int32_t>(std::floor((next + befores[i + 1] - kSlackF) * kPerRadian));
-    before_from[i] =
-        static_cast<std::int32_t>(std::floor((next + afters[i + 1] + kSlackF) * kPerRadian)) + 1;
-  }
-}
-
-/// Whether the edge from vertex i may meet the leaf itself, here a block, or touches its box.
-POLYLOC_INLINE bool RangeBandFinder::Workspace::isWithin(std::size_t i) const {
-  constexpr float kMargin = 1e-3F;
-  return std::min(x[i], x[i + 1]) < high_x + kMargin &&
-         std::max(x[i], x[i + 1]) > low_x - kMargin &&
-         std::min(y[i], y[i + 1]) < high_y + kMargin && std::max(y[i], y[i + 1]) > low_y - kMargin;
-}
 
 /// Joins what an edge may be hit between, over a block of bins, to what the edges before it were,
 /// as long as both overlap.
@@ -360,12 +124,12 @@ POLYLOC_INLINE void RangeBandFinder::Workspace::joinHits(int block,
 /// the edge's bounds say, which are kept as well.
 template <bool is_narrowing>
 POLYLOC_INLINE void RangeBandFinder::Workspace::raise(std::size_t edge, int first, int last) {
-  const float nx = edges.nx[edge], ny = edges.ny[edge];
-  const float near_n = edges.near_n[edge], far_n = edges.far_n[edge];
-  const float near_x = edges.near_x[edge], far_x = edges.far_x[edge];
-  const float near_y = edges.near_y[edge], far_y = edges.far_y[edge];
-  const float skip_n = edges.skip_n[edge], skip_x = edges.skip_x[edge];
-  const float skip_y = edges.skip_y[edge];
+  const float nx = bounds.edges.nx[edge], ny = bounds.edges.ny[edge];
+  const float near_n = bounds.edges.near_n[edge], far_n = bounds.edges.far_n[edge];
+  const float near_x = bounds.edges.near_x[edge], far_x = bounds.edges.far_x[edge];
+  const float near_y = bounds.edges.near_y[edge], far_y = bounds.edges.far_y[edge];
+  const float skip_n = bounds.edges.skip_n[edge], skip_x = bounds.edges.skip_x[edge];
+  const float skip_y = bounds.edges.skip_y[edge];
   // Within a bin a cosine exceeds those at its ends by this at most.
   const float kBulge = 1.0F / static_cast<float>(std::cos(0.5 * kBandBinWidth + kAngularSlack));
   for (int block = first; block <= last; block += kBlock) {
@@ -413,37 +177,37 @@ template <bool is_narrowing>
 POLYLOC_INLINE void RangeBandFinder::Workspace::followStretch(std::size_t& i, std::size_t count) {
   constexpr auto kPerRadian = static_cast<float>(1.0 / kBandBinWidth);
   // Whole turns are added as bins, so that rounding does not add up along a chain.
-  int turns = kFirstTurn + (bearing[i] < 0.0F ? kBins : 0);
+  int turns = kFirstTurn + (bounds.bearing[i] < 0.0F ? kBins : 0);
   const auto starts_before =
-      static_cast<int>(std::floor((bearing[i] + after[i] + kSlackF) * kPerRadian));
+      static_cast<int>(std::floor((bounds.bearing[i] + bounds.after[i] + kSlackF) * kPerRadian));
   int reset_from = turns + starts_before + 1;
   int past_to = reset_from;  // bins below are behind the chain, or never were before it
   int touched_first = kUnwrapped, touched_last = -1;
   for (; i + 1 < count; ++i) {
-    if (is_narrowing && isWithin(i)) break;
-    const int first = turns + edges.first[i], last = turns + edges.last[i];
+    if (is_narrowing && bounds.isWithin(i)) break;
+    const int first = turns + bounds.edges.first[i], last = turns + bounds.edges.last[i];
     if (first < 0 || last + kBlock >= kUnwrapped) break;
-    if (edges.faces[i] != 0) {
+    if (bounds.edges.faces[i] != 0) {
       // Bins the chain was not before count as passed: they are not raised by it.
       raise<is_narrowing>(i, first, last);
       touched_first = std::min(touched_first, first);
       touched_last = std::max(touched_last, last);
     }
     // The chain is past a bin if it is from all of the leaf: then the stretch blocked it.
-    const int past_end = turns + edges.past[i];
+    const int past_end = turns + bounds.edges.past[i];
     for (int b = past_to; b < past_end; ++b) {
       const auto k = static_cast<std::size_t>(b);
       far[k] = std::max(far[k], passing[k] < kUnbounded ? passing[k] : 0.0F);
     }
     past_to = std::max(past_to, past_end);
     // And before a bin again, or still: a new stretch begins here.
-    reset_from = turns + edges.before[i];
+    reset_from = turns + bounds.edges.before[i];
     for (int b = std::max(reset_from, 0); b <= touched_last; ++b) {
       passing[static_cast<std::size_t>(b)] = kUnbounded;
     }
     touched_last = std::min(touched_last, reset_from - 1);
     past_to = std::min(past_to, reset_from);
-    turns += edges.turn[i] * kBins;
+    turns += bounds.edges.turn[i] * kBins;
   }
   for (int b = touched_first; b <= touched_last; ++b) {
     passing[static_cast<std::size_t>(b)] = kUnbounded;
@@ -463,7 +227,7 @@ void RangeBandFinder::Workspace::followBlockStretch(std::size_t& i, std::size_t 
 template <bool is_narrowing>
 void RangeBandFinder::Workspace::followChain(std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i + 1 < end;) {
-    if (is_narrowing && isWithin(i)) {
+    if (is_narrowing && bounds.isWithin(i)) {
       kept.push_back(to_layout + static_cast<std::uint32_t>(i));
       ++i;
       continue;
@@ -484,15 +248,11 @@ void RangeBandFinder::Workspace::followChain(std::size_t begin, std::size_t end)
 template <bool is_narrowing>
 void RangeBandFinder::Workspace::followRuns(const BoundaryChains& chains,
                                             const std::vector<BoundaryChains::Run>& runs,
-                                            const TPoint2D& middle, Ends ends) {
+                                            const TPoint2D& middle, EdgeBounds::Ends ends) {
   near.fill(0.0F);
   far.fill(0.0F);
-  const std::size_t vertices = gather(chains, runs, middle, ends);
-  takeBearings(vertices);
-  // Edges from a run's end to the next one's beginning are computed, too, but never followed.
-  takeBins(vertices);
-  boundEdges(vertices);
-  for (const Stretch& stretch : stretches) {
+  bounds.take(chains, runs, middle, ends);
+  for (const EdgeBounds::Stretch& stretch : bounds.stretches) {
     to_layout =
         static_cast<std::uint32_t>(stretch.first) - static_cast<std::uint32_t>(stretch.begin);
     followChain<is_narrowing>(stretch.begin, stretch.end);
@@ -606,16 +366,16 @@ void RangeBandFinder::narrow(const BoundingBox& block) {
   const BoundaryChains& chains = index_->chains();
   Workspace& w = *workspace_;
   index_->take(index_->squareNumber(middle), w.listed);
-  w.takeLeaf(corners.data(), corners.size(), middle);
+  w.bounds.takeLeaf(corners.data(), corners.size(), middle);
   w.sightings.clear();
   w.kept.clear();
-  w.followRuns<true>(chains, w.listed.walls, middle, Workspace::Ends::extended);
+  w.followRuns<true>(chains, w.listed.walls, middle, EdgeBounds::Ends::extended);
   std::array<float, kBandBins> low, high;
   w.ranges(low.data(), high.data());
   w.keepRuns(chains, high.data(), w.narrowed_walls);
   w.sightings.clear();
   w.kept.clear();
-  w.followRuns<true>(chains, w.listed.open, middle, Workspace::Ends::extended);
+  w.followRuns<true>(chains, w.listed.open, middle, EdgeBounds::Ends::extended);
   w.keepRuns(chains, high.data(), w.narrowed_open);
   w.narrowed = block;
 }
@@ -625,13 +385,14 @@ void RangeBandFinder::find(const TPoint2D* leaf, std::size_t count, RangeBands& 
   for (std::size_t k = 0; k < count; ++k) middle += leaf[k] * (1.0 / static_cast<double>(count));
   const BoundaryChains& chains = index_->chains();
   Workspace& w = *workspace_;
-  w.takeLeaf(leaf, count, middle);
+  w.bounds.takeLeaf(leaf, count, middle);
   const bool is_narrowed =
       std::all_of(leaf, leaf + count, [&w](const TPoint2D& p) { return w.narrowed.contains(p); });
   if (!is_narrowed) index_->take(index_->squareNumber(middle), w.listed);
   const auto& walls = is_narrowed ? w.narrowed_walls : w.listed.walls;
   const auto& open = is_narrowed ? w.narrowed_open : w.listed.open;
-  const Workspace::Ends ends = is_narrowed ? Workspace::Ends::as_listed : Workspace::Ends::extended;
+  const EdgeBounds::Ends ends =
+      is_narrowed ? EdgeBounds::Ends::as_listed : EdgeBounds::Ends::extended;
   w.hits.clear();
   w.followRuns<false>(chains, walls, middle, ends);
   w.ranges(bands.wall_low.data(), bands.wall_high.data());
