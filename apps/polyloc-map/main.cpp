@@ -10,6 +10,8 @@
 #include "map_scene.h"
 #include "view_text.h"
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/notes.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/io/polygon_files.h>
 
 #include <filesystem>
@@ -98,6 +100,16 @@ void writeOutputs(const Options& options, const PolygonMap& map, const CellRepor
   files.commit();
 }
 
+/// Of a map that was traced, how well its walls are known is what WKT cannot say.
+void noteWhatIsLost(const Program& program, const Options& options, const PolygonMap& map) {
+  if (map.cellSize() == 0.0 || extensionOf(options.output) != ".wkt") return;
+  Notes notes;
+  addNote(&notes, formatted("WKT does not say that the map was traced from cells of %g m: give "
+                            "--cell-size %g where it is used, or write .geojson",
+                            map.cellSize(), map.cellSize()));
+  program.note(options.output, notes);
+}
+
 void report(const Options& options, const RepairedMap& loaded, const CellReport* cells) {
   if (options.json) {
     nlohmann::ordered_json json = jsonReport(loaded);
@@ -138,6 +150,7 @@ int convert(const Program& program, const Options& options) {
   if (options.cells) cells.emplace(loaded.map, options.range.value_or(kUnlimitedRange));
   const CellReport* shown = cells ? &*cells : nullptr;
   writeOutputs(options, loaded.map, shown);
+  if (!options.output.empty() && options.view.empty()) noteWhatIsLost(program, options, loaded.map);
   report(options, loaded, shown);
   return options.check && !loaded.defects.empty() ? kFailed : kDone;
 }

@@ -83,6 +83,21 @@ TEST_F(PolylocMap, ConvertsToGeoJsonAndBack) {
   EXPECT_THAT(files(), ElementsAre("again.wkt", "room.geojson", "room.wkt"));
 }
 
+TEST_F(PolylocMap, SaysWhatWktCannotSayOfATracedMap) {
+  ASSERT_EQ(map({roomFile(), "-o", path("room.geojson")}).code, 0);
+  json traced = json::parse(readFile(path("room.geojson")));
+  traced["cell_size"] = 0.05;
+  write("traced.geojson", traced.dump());
+  for (const char* name : {"room.geojson", "traced.geojson"}) {
+    const bool is_traced = std::string(name) == "traced.geojson";
+    EXPECT_EQ(map({path(name), "-o", path("again.geojson")}).err, "");
+    EXPECT_EQ(json::parse(readFile(path("again.geojson"))).count("cell_size"), is_traced ? 1U : 0U);
+    const Outcome lossy = map({path(name), "-o", path("out.wkt")});
+    EXPECT_EQ(lossy.code, 0);
+    EXPECT_EQ(lossy.err.find("--cell-size 0.05") != std::string::npos, is_traced) << lossy.err;
+  }
+}
+
 TEST_F(PolylocMap, DrawsTheMap) {
   ASSERT_EQ(map({roomFile(), "--svg", path("room.svg")}).code, 0);
   EXPECT_THAT(readFile(path("room.svg")), AllOf(HasSubstr("<svg xmlns"), HasSubstr("</svg>")));
