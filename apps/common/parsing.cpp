@@ -35,6 +35,11 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count) {
 
 }  // namespace
 
+bool endsWith(const std::string& text, const std::string& tail) {
+  return text.size() >= tail.size() &&
+         text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
+}
+
 std::optional<double> parseFinite(const std::string& text) {
   const auto number = parseNumber(text);
   return number && std::isfinite(*number) ? number : std::nullopt;

@@ -17,6 +17,8 @@ namespace mrpt_polyloc::apps {
 /// The finite number a whole text is, if it is one: parseNumber() for options.
 std::optional<double> parseFinite(const std::string& text);
 
+bool endsWith(const std::string& text, const std::string& tail);
+
 /// A row or an inclusive range of rows (0-based).
 struct RowRange {
   std::uint64_t first = 0;

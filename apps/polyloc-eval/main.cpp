@@ -128,10 +128,6 @@ int mainOfMerge(int argc, char** argv, const std::string& command) {
   return program.run(argc, argv, [&] { return mergeRuns(program, folders, folder, command); });
 }
 
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {

@@ -28,19 +28,12 @@ double timed(const Job& job) {
   return 1e3 * watch.seconds();
 }
 
-/// CPU time of the calling thread [ms].
-double cpuMs() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 /// Runs a job of MRPT's filter and adds what it took.
 template <class Job>
 void timeFilter(StepRecord& record, const Job& job) {
-  const double before = cpuMs();
+  const double before = threadCpuMs();
   record.filter_ms += timed(job);
-  record.filter_cpu_ms += cpuMs() - before;
+  record.filter_cpu_ms += threadCpuMs() - before;
 }
 
 /// A filter with its particles, and what keeps it from staying lost.

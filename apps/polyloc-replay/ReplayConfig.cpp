@@ -30,17 +30,12 @@ bool startsWith(const std::string& text, const std::string& head) {
   return text.compare(0, head.size(), head) == 0;
 }
 
-bool endsWith(const std::string& text, const std::string& tail) {
-  return text.size() >= tail.size() &&
-         text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
-}
-
 /// The files that maps name for themselves.
 void resolveMapFiles(const std::string& ini, CConfigFileMemory& text) {
   std::vector<std::string> sections;
   text.getAllSections(sections);
   for (const std::string& section : sections) {
-    if (!startsWith(section, "MetricMap_polygonMap2D_") || !endsWith(section, "_creationOpts")) {
+    if (!startsWith(section, "MetricMap_polygonMap2D_") || !apps::endsWith(section, "_creationOpts")) {
       continue;
     }
     const std::string file = text.read_string(section, "file", "");

@@ -12,13 +12,6 @@
 namespace mrpt_polyloc::replay {
 namespace {
 
-/// CPU time of the calling thread [ms].
-double cpuMs() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 /// The movement since the step before, with the noise that the tracker expects of wheels.
 Motion motionOf(const ReplayStep& step) {
   if (!step.action) return {};
@@ -51,10 +44,10 @@ RunRecord runTracker(const ReplaySetup& setup, const std::vector<std::size_t>& r
     record.step = replayed[k];
     record.stamp = at.scan.stamp();
     const Stopwatch watch;
-    const double before = cpuMs();
+    const double before = threadCpuMs();
     if (k > 0) tracker.move(motionOf(at));
     const TrackingState& state = tracker.update(at.scans);
-    record.filter_cpu_ms = cpuMs() - before;
+    record.filter_cpu_ms = threadCpuMs() - before;
     record.filter_ms = 1e3 * watch.seconds();
     describe(state, std::find(reported.begin(), reported.end(), record.step) != reported.end(),
              record);

@@ -1,6 +1,7 @@
 #include "replay_maps.h"
 
 #include "../common/memory_budget.h"
+#include "../common/parsing.h"
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/map_files.h>
@@ -20,18 +21,13 @@ using apps::requireMemory;
 
 using mrpt::maps::CMultiMetricMap;
 
-bool endsWith(const std::string& text, const std::string& tail) {
-  return text.size() >= tail.size() &&
-         text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
-}
-
 /// MRPT 2.5.8 leaves out a map whose class it does not know, without a word.
 void requireKnownClasses(const ReplayConfig& config) {
   std::vector<std::string> keys;
   config.text.getAllKeys("MetricMap", keys);
   const std::string tail = "_count";
   for (const std::string& key : keys) {
-    if (!endsWith(key, tail) || config.text.read_double("MetricMap", key, 0.0) <= 0.0) continue;
+    if (!apps::endsWith(key, tail) || config.text.read_double("MetricMap", key, 0.0) <= 0.0) continue;
     const std::string name = key.substr(0, key.size() - tail.size());
     const auto& known =
         mrpt::maps::internal::TMetricMapTypesRegistry::Instance().getAllRegistered();

@@ -13,21 +13,6 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-TPose2D compose(const TPose2D& a, const TPose2D& b) {
-  const double c = std::cos(a.phi), s = std::sin(a.phi);
-  return {a.x + c * b.x - s * b.y, a.y + s * b.x + c * b.y, std::remainder(a.phi + b.phi, kTwoPi)};
-}
-
-/// `b` seen from `a`.
-TPose2D seenFrom(const TPose2D& a, const TPose2D& b) {
-  const double c = std::cos(a.phi), s = std::sin(a.phi), dx = b.x - a.x, dy = b.y - a.y;
-  return {c * dx + s * dy, -s * dx + c * dy, std::remainder(b.phi - a.phi, kTwoPi)};
-}
-
-bool isNear(const TPose2D& a, const TPose2D& b) {
-  return std::hypot(a.x - b.x, a.y - b.y) < 0.5 && angleBetween(a.phi, b.phi) < 10.0 * kDegree;
-}
-
 /// Enough of a drive that rooms and doors of one floor differ, not so much that it costs seconds.
 LastMetresParams drivenMetres() {
   LastMetresParams params;
@@ -162,7 +147,7 @@ std::optional<TPose2D> TravelRun::conclude(const TrackingState& state) {
   const LocalizationResult all = localizer_.localize(drive, priorNow());
   double near = 0.0;
   for (const Hypothesis& hypothesis : all.hypotheses) {
-    if (isNear(hypothesis.pose_map_robot, first)) near += hypothesis.weight;
+    if (isRight(hypothesis.pose_map_robot, first, kSamePlace)) near += hypothesis.weight;
   }
   if (near >= kLikely && all.status == LocalizationStatus::unique) return first;
   living_.clear();
@@ -190,9 +175,9 @@ TravelSituation TravelRun::situationOf(const TrackingState& state) const {
   }
   for (const PlacedScan& placed : scans_) {
     if (knows_enough && situation.scans.size() == kRecent) break;
-    situation.scans.push_back({placed.scan, seenFrom(odometry_, placed.pose)});
+    situation.scans.push_back({placed.scan, placed.pose - odometry_});
   }
-  for (const TPose2D& before : looked_) situation.looked.push_back(seenFrom(odometry_, before));
+  for (const TPose2D& before : looked_) situation.looked.push_back(before - odometry_);
   situation.most_distance = params_.most_travel - result_.travelled;
   situation.recent_scans = kRecent;
   situation.seed = seed_ * 1000 + result_.scans;
@@ -223,7 +208,7 @@ void TravelRun::drive() {
   measured = measured + move({0, 0, std::remainder(plan.waypoint.phi - at.phi, kTwoPi)});
   tracker_.move(measured);
   since_scan_ = measured;
-  odometry_ = compose(before, measured.pose_before_after);
+  odometry_ = before + measured.pose_before_after;
 }
 
 /// One turn or straight piece, as it is measured; the truth goes astray.
@@ -237,7 +222,7 @@ Motion TravelRun::move(const TPose2D& told) {
       (with.heading_per_metre * length + with.heading_per_radian * std::abs(told.phi)) *
       noise_.normal();
   const TPose2D start = truth_;
-  const TPose2D end = compose(start, {told.x + along, told.y + across, told.phi + turn});
+  const TPose2D end = start + TPose2D(told.x + along, told.y + across, told.phi + turn);
   if (length > 0.0) {
     const auto steps = static_cast<int>(std::ceil(length / 0.02));
     bool touches = false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "World.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/evaluation/Summary.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/scan/Motion.h>
@@ -17,6 +18,9 @@
 #include <vector>
 
 namespace mrpt_polyloc::apps {
+
+/// Within it, two hypotheses are the same place to a robot that plans where to look.
+inline constexpr Tolerance kSamePlace{0.5, 10.0 * kDegree};
 
 struct TravelRunParams {
   MotionNoise odometry;

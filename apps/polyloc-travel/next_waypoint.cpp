@@ -15,17 +15,6 @@ namespace {
 using mrpt::math::TPose2D;
 using nlohmann::ordered_json;
 
-/// `b` after `a`.
-TPose2D compose(const TPose2D& a, const TPose2D& b) {
-  const double c = std::cos(a.phi), s = std::sin(a.phi);
-  return {a.x + c * b.x - s * b.y, a.y + s * b.x + c * b.y, std::remainder(a.phi + b.phi, kTwoPi)};
-}
-
-TPose2D inverse(const TPose2D& a) {
-  const double c = std::cos(a.phi), s = std::sin(a.phi);
-  return {-c * a.x - s * a.y, s * a.x - c * a.y, -a.phi};
-}
-
 }  // namespace
 
 ordered_json nextWaypoint(const TravelPlanner& planner, const GlobalLocalizer& localizer,
@@ -36,7 +25,7 @@ ordered_json nextWaypoint(const TravelPlanner& planner, const GlobalLocalizer& l
   for (const Look& look : looks) {
     if (!odometry.empty()) {
       tracker.move(measuredMotion(look.moved, params.odometry));
-      at = compose(at, look.moved);
+      at = at + look.moved;
     }
     tracker.update(look.scan);
     odometry.push_back(at);
@@ -53,7 +42,7 @@ ordered_json nextWaypoint(const TravelPlanner& planner, const GlobalLocalizer& l
   }
   constexpr std::size_t kKept = 3;  // scans that say what stands beside the robot
   for (std::size_t i = looks.size(); i-- > 0;) {
-    const TPose2D seen = compose(inverse(odometry.back()), odometry[i]);
+    const TPose2D seen = odometry[i] - odometry.back();
     situation.looked.push_back(seen);
     if (situation.scans.size() < kKept) situation.scans.push_back({looks[i].scan, seen});
   }

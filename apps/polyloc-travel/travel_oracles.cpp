@@ -37,20 +37,11 @@ SafeSet reachable(const TravelPlanner& planner, const TPose2D& truth, double mos
   return SafeSet(planner.clearances(), alone, Sight({}, safe.robot_radius), safe);
 }
 
-TPoint2D placedAt(const TPose2D& pose, const TPoint2D& place) {
-  const double c = std::cos(pose.phi), s = std::sin(pose.phi);
-  return {pose.x + c * place.x - s * place.y, pose.y + s * place.x + c * place.y};
-}
-
-bool isNear(const TPose2D& a, const TPose2D& b) {
-  return std::hypot(a.x - b.x, a.y - b.y) < 0.5 && angleBetween(a.phi, b.phi) < 10.0 * kDegree;
-}
-
 /// What a laser that sees all around reads at a place, by brute force.
 std::vector<double> readAt(const WallSegments& walls, const TPose2D& pose, const TPoint2D& place,
                            double max_range) {
   constexpr int kBeams = 120;
-  const TPoint2D at = placedAt(pose, place);
+  const TPoint2D at = pose.composePoint(place);
   std::vector<double> ranges;
   for (int k = 0; k < kBeams; ++k) {
     ranges.push_back(std::min(max_range, walls.range(at, pose.phi + kTwoPi * k / kBeams)));
@@ -81,7 +72,7 @@ bool isTrulyIndistinguishable(const TravelPlanner& planner, const World& world,
   const TravelStep& last = run.steps.back();
   const auto right = std::find_if(
       last.hypotheses.begin(), last.hypotheses.end(),
-      [&](const auto& hypothesis) { return isNear(hypothesis.pose_map_robot, last.truth); });
+      [&](const auto& hypothesis) { return isRight(hypothesis.pose_map_robot, last.truth, kSamePlace); });
   if (right == last.hypotheses.end() || last.hypotheses.size() < 2) return false;
   const SafeSet safe = reachable(planner, last.truth, most_distance);
   double spacing = kSpacing;
@@ -112,7 +103,7 @@ std::optional<double> shortestTour(const TravelPlanner& planner, const World& wo
   const TPose2D truth = run.start;
   std::vector<Hypothesis> poses{sure(truth)};  // the truth, then its rivals
   for (const TrackedHypothesis& tracked : run.steps.front().hypotheses) {
-    if (!isNear(tracked.pose_map_robot, truth)) poses.push_back(sure(tracked.pose_map_robot));
+    if (!isRight(tracked.pose_map_robot, truth, kSamePlace)) poses.push_back(sure(tracked.pose_map_robot));
   }
   const std::size_t rivals = poses.size() - 1;
   if (rivals == 0 || rivals > kMostRivals) return std::nullopt;

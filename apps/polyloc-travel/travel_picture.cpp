@@ -14,16 +14,11 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-TPoint2D placedAt(const TPose2D& pose, const TPoint2D& place) {
-  const double c = std::cos(pose.phi), s = std::sin(pose.phi);
-  return {pose.x + c * place.x - s * place.y, pose.y + s * place.x + c * place.y};
-}
-
 /// The safe set where the robot truly was.
 void drawSafeSet(SvgCanvas& canvas, const SafeSet& safe, const TPose2D& truth, double square) {
   std::vector<std::vector<TPoint2D>> rings = safeSetOutline(safe, square);
   for (std::vector<TPoint2D>& ring : rings) {
-    for (TPoint2D& corner : ring) corner = placedAt(truth, corner);
+    for (TPoint2D& corner : ring) corner = truth.composePoint(corner);
   }
   canvas.area(rings, "safe");
   canvas.legend(SvgCanvas::Sample::patch, "safe", "safe at the start");

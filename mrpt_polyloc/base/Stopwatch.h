@@ -3,6 +3,7 @@
 #include <mrpt_polyloc/base/export.h>
 
 #include <chrono>
+#include <ctime>
 
 namespace mrpt_polyloc {
 
@@ -16,5 +17,12 @@ class POLYLOC_EXPORT Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+/// CPU time of the calling thread [ms].
+inline double threadCpuMs() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
 
 }  // namespace mrpt_polyloc

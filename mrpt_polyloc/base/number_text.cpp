@@ -72,4 +72,8 @@ std::string formatted(const char* format, ...) {
   return text;
 }
 
+std::string pointText(const mrpt::math::TPoint2D& point) {
+  return formatted("(%f, %f)", point.x, point.y);
+}
+
 }  // namespace mrpt_polyloc

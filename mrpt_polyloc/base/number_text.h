@@ -2,6 +2,8 @@
 
 #include <mrpt_polyloc/base/export.h>
 
+#include <mrpt/math/TPoint2D.h>
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,5 +27,8 @@ POLYLOC_EXPORT void appendNumber(std::string& text, double value);
 
 /// What std::printf() would print in the "C" locale.
 POLYLOC_EXPORT __attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...);
+
+/// "(X, Y)" with six decimals, for messages.
+POLYLOC_EXPORT std::string pointText(const mrpt::math::TPoint2D& point);
 
 }  // namespace mrpt_polyloc

@@ -3,6 +3,7 @@
 #include <mrpt/math/TPoint2D.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mrpt_polyloc {
 
@@ -17,6 +18,12 @@ inline double cross(const mrpt::math::TPoint2D& o, const mrpt::math::TPoint2D& a
 }
 inline double dot(const mrpt::math::TPoint2D& a, const mrpt::math::TPoint2D& b) {
   return a.x * b.x + a.y * b.y;
+}
+
+/// By an angle [rad] to the left.
+inline mrpt::math::TPoint2D turned(const mrpt::math::TPoint2D& p, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
 
 /// Between a point and the nearest one of a segment, which may be a single point.

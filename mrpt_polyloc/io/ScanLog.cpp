@@ -44,9 +44,9 @@ class Writer {
   std::string bytes_;
 };
 
-class Reader {
+class LogReader {
  public:
-  explicit Reader(const std::string& bytes) : bytes_(bytes) {}
+  explicit LogReader(const std::string& bytes) : bytes_(bytes) {}
   template <class T>
   void get(T& value) {
     getBytes(&value, sizeof value);
@@ -114,7 +114,7 @@ std::string bytesOf(const LoggedScan& scan) {
 }
 
 LoggedScan scanOf(const std::string& bytes) {
-  Reader reader(bytes);
+  LogReader reader(bytes);
   LoggedScan scan;
   transfer([&](auto& value) { reader.get(value); }, scan);
   bool is_single = false;

@@ -204,9 +204,9 @@ bool isFirstChoice(const std::string& keyword) {
 
 /// Reads a log once, giving its scans away as they come; what the whole log says of them is known
 /// in the end.
-class Reader {
+class CarmenReader {
  public:
-  Reader(std::string path, const ScanFileOptions& options)
+  CarmenReader(std::string path, const ScanFileOptions& options)
       : path_(std::move(path)), options_(options) {}
 
   void read(Notes* notes, const TakeLoggedScan& take) {
@@ -319,7 +319,7 @@ ScanStreamEnd streamCarmen(const std::string& path, const ScanFileOptions& optio
   if (fov && !(*fov > 0.0 && *fov <= 2 * kPi + 1e-9)) {
     throw InvalidParamsError("laser_fov is " + formatted("%f", *fov) + ", not in (0, 2 pi]");
   }
-  const auto reader = std::make_shared<Reader>(path, options);
+  const auto reader = std::make_shared<CarmenReader>(path, options);
   reader->read(notes, take);
   return {reader->rows(),
           [reader](std::size_t number, LoggedScan& scan) { reader->finish(number, scan); }};

@@ -183,9 +183,9 @@ bool isDoor(const JsonAt& feature) {
 }
 
 /// Reads features and geometries into a map.
-class Reader {
+class GeoJsonReader {
  public:
-  explicit Reader(std::vector<Polyline>* doors) : doors_(doors) {}
+  explicit GeoJsonReader(std::vector<Polyline>* doors) : doors_(doors) {}
 
   void readRoot(const JsonAt& root) {
     const std::string type = root.member("type").string();
@@ -333,7 +333,7 @@ RawMap parseGeoJson(const std::string& text, const std::string& file, Notes* not
                     std::vector<Polyline>* doors) {
   const nlohmann::json document = parseJson(text, file);
   const JsonAt root(document, "", file);
-  Reader reader(doors);
+  GeoJsonReader reader(doors);
   reader.readRoot(root);
   RawMap map = reader.finish(notes);
   if (map.polygons.empty() && reader.passedOver() > 0) {

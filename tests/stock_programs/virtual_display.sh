@@ -15,7 +15,7 @@ require() {
 
 start_display() {
   mkdir "$scratch/screen" "$scratch/home"
-  Xvfb -displayfd 3 -screen 0 1280x800x24 -fbdir "$scratch/screen" -nolisten tcp \
+  Xvfb -displayfd 3 -screen 0 1280x800x24 -fbdir "$scratch/screen" -nolisten tcp -noreset \
     3> "$scratch/display" 2> "$scratch/Xvfb.log" &
   display_pid=$!
   wait_until 30 test -s "$scratch/display" || {

@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/params_check.h>
+#include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/localization/exact/ExactCandidates.h>
 #include <mrpt_polyloc/localization/exact/ExactLocalizer.h>
 #include <mrpt_polyloc/localization/exact/ObservedPolygon.h>
@@ -13,11 +14,6 @@ using mrpt::math::TPose2D;
 
 double angleOf(const TPoint2D& from, const TPoint2D& to) {
   return std::atan2(to.y - from.y, to.x - from.x);
-}
-
-TPoint2D turned(const TPoint2D& p, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
 
 }  // namespace

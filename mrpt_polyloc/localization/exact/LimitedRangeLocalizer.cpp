@@ -20,10 +20,6 @@ using Piece = LimitedPolygon::Piece;
 double angleOf(const TPoint2D& d) {
   return std::atan2(d.y, d.x);
 }
-TPoint2D turned(const TPoint2D& p, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * p.x - s * p.y, s * p.x + c * p.y};
-}
 TPoint2D unit(const TPoint2D& d) {
   return d * (1.0 / d.norm());
 }

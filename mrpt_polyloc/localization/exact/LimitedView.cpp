@@ -12,10 +12,6 @@
 namespace mrpt_polyloc {
 namespace {
 
-std::string toText(const TPoint2D& p) {
-  return formatted("(%f, %f)", p.x, p.y);
-}
-
 /// The shares of an edge between which it is within the range; false if nowhere.
 bool clipped(const TPoint2D& a, const TPoint2D& b, double range, double& enters, double& leaves) {
   const TPoint2D d = b - a;
@@ -57,10 +53,10 @@ LimitedPolygon::LimitedPolygon(const LimitedView& view, double tolerance)
   for (std::size_t i = 0; i < view.vertices.size(); ++i) {
     const TPoint2D &a = view.vertices[i], &b = view.vertices[(i + 1) % view.vertices.size()];
     if (!std::isfinite(a.x) || !std::isfinite(a.y)) {
-      throw InvalidParamsError("vertex " + toText(a) + " is not finite");
+      throw InvalidParamsError("vertex " + pointText(a) + " is not finite");
     }
     if (a.norm() > range_ + 2.0 * tolerance) {
-      throw InvalidParamsError("vertex " + toText(a) + " is out of the range");
+      throw InvalidParamsError("vertex " + pointText(a) + " is out of the range");
     }
     const double step = std::atan2(cross(a, b), dot(a, b));
     // Walls may meet on the circle, with an arc of no length between them.
@@ -83,7 +79,7 @@ void LimitedPolygon::add(const TPoint2D& a, const TPoint2D& b, bool is_arc) {
   if (is_arc) {
     for (const TPoint2D& p : {a, b}) {
       if (p.norm() < range_ - 2.0 * tolerance_) {
-        throw InvalidParamsError("the arc from " + toText(a) + " to " + toText(b) +
+        throw InvalidParamsError("the arc from " + pointText(a) + " to " + pointText(b) +
                                  " does not end at the range");
       }
     }
@@ -94,7 +90,7 @@ void LimitedPolygon::add(const TPoint2D& a, const TPoint2D& b, bool is_arc) {
   const double far = std::max(a.norm(), b.norm());
   if (area < -2.0 * tolerance_ * far) {
     throw InvalidParamsError("not counterclockwise and star-shaped around the origin: edge " +
-                             toText(a) + " to " + toText(b) + " is seen from behind");
+                             pointText(a) + " to " + pointText(b) + " is seen from behind");
   }
   if (area <= 2.0 * tolerance_ * far) return;  // a window
   const TPoint2D normal((b.y - a.y) / length, (a.x - b.x) / length);

@@ -12,10 +12,6 @@
 namespace mrpt_polyloc {
 namespace {
 
-std::string toText(const TPoint2D& p) {
-  return formatted("(%f, %f)", p.x, p.y);
-}
-
 /// Whether the point seen in direction u in one piece lies within the limit of the other.
 bool agreeAlong(const TPoint2D& u, const ObservedPolygon::Wall& a, const ObservedPolygon::Wall& b,
                 double limit) {
@@ -47,7 +43,7 @@ std::vector<TPoint2D> ObservedPolygon::cleaned(const std::vector<TPoint2D>& vert
   std::vector<TPoint2D> kept;
   for (const TPoint2D& v : vertices) {
     if (!std::isfinite(v.x) || !std::isfinite(v.y)) {
-      throw InvalidParamsError("vertex " + toText(v) + " is not finite");
+      throw InvalidParamsError("vertex " + pointText(v) + " is not finite");
     }
     if (kept.empty() || !isWithin((v - kept.back()).norm(), tolerance_)) kept.push_back(v);
   }
@@ -77,11 +73,11 @@ ObservedPolygon::ObservedPolygon(const std::vector<TPoint2D>& vertices, double t
     radius_ = std::max(radius_, far);
     turned += std::atan2(area, dot(a, b));
     if (dot(a, b - a) <= 0.0 && dot(b, b - a) >= 0.0 && std::abs(area) <= tolerance * length) {
-      throw InvalidParamsError("the origin lies on the edge " + toText(a) + " to " + toText(b));
+      throw InvalidParamsError("the origin lies on the edge " + pointText(a) + " to " + pointText(b));
     }
     if (area < -2.0 * tolerance * far) {
       throw InvalidParamsError("not counterclockwise and star-shaped around the origin: edge " +
-                               toText(a) + " to " + toText(b) + " is seen from behind");
+                               pointText(a) + " to " + pointText(b) + " is seen from behind");
     }
     if (isWithin(std::abs(area) / far, 2.0 * tolerance)) continue;  // a window
     const TPoint2D normal((b.y - a.y) / length, (a.x - b.x) / length);

@@ -17,12 +17,6 @@ constexpr double kClosedCell = 1000.0;
 /// and 2.7 us a vertex (tests/bench/exact_bench.cpp, n = 196).
 constexpr double kVerticesPerCell = 6.0;
 
-TPose2D composed(const TPose2D& a, const TPose2D& b) {
-  const double c = std::cos(a.phi), s = std::sin(a.phi);
-  return {a.x + c * b.x - s * b.y, a.y + s * b.x + c * b.y,
-          std::remainder(a.phi + b.phi, 2.0 * M_PI)};
-}
-
 const ExactLocalizerParams& checked(const ExactLocalizerParams& params) {
   params.check();
   return params;
@@ -65,7 +59,7 @@ ExactAnswers SkeletonLocalizer::localize(const std::vector<TPoint2D>& view,
   for (const SkeletonClasses::Match& match : classes_.find(seen.skeleton(), expander)) {
     classes_.forEachEmbedding(match.index, [&](const SkeletonClasses::Embedding& embedding) {
       ++positions;
-      const TPose2D pose = composed(embedding.pose_map_skeleton, match.pose_skeleton_robot);
+      const TPose2D pose = embedding.pose_map_skeleton + match.pose_skeleton_robot;
       const bool is_there =
           embedding.cell == VisibilityCells::kNone ||
           cells_.distanceOutside(static_cast<std::size_t>(embedding.cell), {pose.x, pose.y}) <=

@@ -1,19 +1,9 @@
 #include <mrpt_polyloc/localization/ranking/SetEvidence.h>
 
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace mrpt_polyloc {
-namespace {
-
-double meanOf(const std::vector<float>& values) {
-  if (values.empty()) return 0.0;
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-}  // namespace
-
 SetEvidence::SetEvidence(const RangePredictor& predictor, const ScanSet& set,
                          const MomentWeights& weights, const RobustCostParams& cost,
                          const BeamEvidenceParams& evidence)

@@ -18,11 +18,6 @@ bool isNear(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b,
          angleBetween(a.phi, b.phi) < params.merge_angle;
 }
 
-double meanOf(const std::vector<float>& values) {
-  if (values.empty()) return 0.0;
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 /// By how many standard errors the evidence `other` falls behind `best`.
 double zScore(const std::vector<float>& best, const std::vector<float>& other,
               const BeamSectors& sectors, double map_error) {

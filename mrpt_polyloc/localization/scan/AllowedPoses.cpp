@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/localization/scan/AllowedPoses.h>
 
 #include <algorithm>
@@ -12,11 +13,6 @@ using mrpt::math::TPose2D;
 
 constexpr double kRounding = 1e-9;  // m, rad
 
-/// The sensor as seen from the robot, in the map's axes.
-TPoint2D turned(const TPoint2D& sensor, double heading) {
-  const double c = std::cos(heading), s = std::sin(heading);
-  return {c * sensor.x - s * sensor.y, s * sensor.x + c * sensor.y};
-}
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace mrpt_polyloc {
@@ -64,6 +65,11 @@ double BeamEvidence::nearness(const mrpt::math::TPose2D& pose) const {
   forEachPoint(pose,
                [&sum](const Point& point, double nearness) { sum += point.weight * nearness; });
   return sum;
+}
+
+double meanOf(const std::vector<float>& values) {
+  if (values.empty()) return 0.0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 }  // namespace mrpt_polyloc

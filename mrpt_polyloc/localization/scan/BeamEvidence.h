@@ -44,4 +44,7 @@ class POLYLOC_EXPORT BeamEvidence {
   std::vector<Point> points_;
 };
 
+/// The evidence against a pose: the mean over the beams [m], 0 without any.
+POLYLOC_EXPORT double meanOf(const std::vector<float>& values);
+
 }  // namespace mrpt_polyloc
