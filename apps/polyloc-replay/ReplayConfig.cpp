@@ -35,7 +35,8 @@ void resolveMapFiles(const std::string& ini, CConfigFileMemory& text) {
   std::vector<std::string> sections;
   text.getAllSections(sections);
   for (const std::string& section : sections) {
-    if (!startsWith(section, "MetricMap_polygonMap2D_") || !apps::endsWith(section, "_creationOpts")) {
+    if (!startsWith(section, "MetricMap_polygonMap2D_") ||
+        !apps::endsWith(section, "_creationOpts")) {
       continue;
     }
     const std::string file = text.read_string(section, "file", "");

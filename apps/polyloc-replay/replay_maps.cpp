@@ -27,7 +27,8 @@ void requireKnownClasses(const ReplayConfig& config) {
   config.text.getAllKeys("MetricMap", keys);
   const std::string tail = "_count";
   for (const std::string& key : keys) {
-    if (!apps::endsWith(key, tail) || config.text.read_double("MetricMap", key, 0.0) <= 0.0) continue;
+    if (!apps::endsWith(key, tail) || config.text.read_double("MetricMap", key, 0.0) <= 0.0)
+      continue;
     const std::string name = key.substr(0, key.size() - tail.size());
     const auto& known =
         mrpt::maps::internal::TMetricMapTypesRegistry::Instance().getAllRegistered();

@@ -70,9 +70,10 @@ bool isTrulyIndistinguishable(const TravelPlanner& planner, const World& world,
                               const TravelRunResult& run, double most_distance) {
   constexpr double kFewBeams = 0.04;
   const TravelStep& last = run.steps.back();
-  const auto right = std::find_if(
-      last.hypotheses.begin(), last.hypotheses.end(),
-      [&](const auto& hypothesis) { return isRight(hypothesis.pose_map_robot, last.truth, kSamePlace); });
+  const auto right =
+      std::find_if(last.hypotheses.begin(), last.hypotheses.end(), [&](const auto& hypothesis) {
+        return isRight(hypothesis.pose_map_robot, last.truth, kSamePlace);
+      });
   if (right == last.hypotheses.end() || last.hypotheses.size() < 2) return false;
   const SafeSet safe = reachable(planner, last.truth, most_distance);
   double spacing = kSpacing;
@@ -103,7 +104,8 @@ std::optional<double> shortestTour(const TravelPlanner& planner, const World& wo
   const TPose2D truth = run.start;
   std::vector<Hypothesis> poses{sure(truth)};  // the truth, then its rivals
   for (const TrackedHypothesis& tracked : run.steps.front().hypotheses) {
-    if (!isRight(tracked.pose_map_robot, truth, kSamePlace)) poses.push_back(sure(tracked.pose_map_robot));
+    if (!isRight(tracked.pose_map_robot, truth, kSamePlace))
+      poses.push_back(sure(tracked.pose_map_robot));
   }
   const std::size_t rivals = poses.size() - 1;
   if (rivals == 0 || rivals > kMostRivals) return std::nullopt;

@@ -151,6 +151,11 @@ void Browser::reload() {
   ofSession("/refresh", json::object());
 }
 
+void Browser::leave() {
+  run("if (location.protocol === 'http:') { localStorage.clear(); sessionStorage.clear(); }");
+  ofSession("/url", {{"url", "about:blank"}});
+}
+
 json Browser::run(const std::string& script) {
   return ofSession("/execute/sync", {{"script", "return (async () => {" + script + "})()"},
                                      {"args", json::array()}});

@@ -24,6 +24,8 @@ class Browser {
   void emulate(int width, int height, bool dark = false);
   void open(const std::string& url);
   void reload();
+  /// Closes the page, with all that it has stored.
+  void leave();
   /// Runs the body of a function in the page; a promise is waited for.
   nlohmann::json run(const std::string& script);
   /// Waits until an expression is true. \returns whether that was within a minute

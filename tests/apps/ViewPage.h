@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,13 +19,16 @@ class ViewPage : public ProgramTest {
  protected:
   void SetUp() override {
     if (!Browser::missing().empty()) GTEST_SKIP() << Browser::missing();
-    browser_ = std::make_unique<Browser>();
+    // One for all tests of a process: its start takes as long as many a test.
+    static Browser browser;
+    browser_ = &browser;
     browser_->emulate(1200, 760);
   }
   void TearDown() override {
     if (!browser_) return;
     const std::vector<std::string> complaints = browser_->complaints();
     EXPECT_TRUE(complaints.empty() || expects_complaints_) << nlohmann::json(complaints).dump(1);
+    browser_->leave();
   }
 
   Browser& browser() { return *browser_; }
@@ -61,7 +63,7 @@ class ViewPage : public ProgramTest {
   bool expects_complaints_ = false;
 
  private:
-  std::unique_ptr<Browser> browser_;
+  Browser* browser_ = nullptr;
 };
 
 }  // namespace mrpt_polyloc::test

@@ -73,7 +73,8 @@ ObservedPolygon::ObservedPolygon(const std::vector<TPoint2D>& vertices, double t
     radius_ = std::max(radius_, far);
     turned += std::atan2(area, dot(a, b));
     if (dot(a, b - a) <= 0.0 && dot(b, b - a) >= 0.0 && std::abs(area) <= tolerance * length) {
-      throw InvalidParamsError("the origin lies on the edge " + pointText(a) + " to " + pointText(b));
+      throw InvalidParamsError("the origin lies on the edge " + pointText(a) + " to " +
+                               pointText(b));
     }
     if (area < -2.0 * tolerance * far) {
       throw InvalidParamsError("not counterclockwise and star-shaped around the origin: edge " +

@@ -13,7 +13,6 @@ using mrpt::math::TPose2D;
 
 constexpr double kRounding = 1e-9;  // m, rad
 
-
 }  // namespace
 
 bool AllowedPoses::contains(const TPose2D& pose) const {
