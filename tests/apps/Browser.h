@@ -9,6 +9,12 @@
 
 namespace mrpt_polyloc::test {
 
+/// Keys as WebDriver writes them, where they are no characters.
+inline const std::string kEnterKey = "\uE007";
+inline const std::string kShiftKey = "\uE008";
+inline const std::string kEscapeKey = "\uE00C";
+inline const std::string kLeftKey = "\uE012";
+
 /// A headless Chromium, steered through its driver (https://www.w3.org/TR/webdriver2/).
 class Browser {
  public:

@@ -1,5 +1,6 @@
 #include "ViewProcess.h"
 #include "view_answers.h"
+#include "view_maps.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,8 +19,6 @@ namespace mrpt_polyloc::test {
 namespace {
 
 using nlohmann::json;
-
-const std::string kFlat = std::string(POLYLOC_SOURCE_DIR) + "/datasets/flat.wkt";
 
 class ViewApi : public testing::Test {
  protected:

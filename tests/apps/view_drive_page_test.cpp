@@ -1,5 +1,6 @@
 #include "ViewPage.h"
 #include "view_floor.h"
+#include "view_maps.h"
 
 #include <iostream>
 #include <string>
@@ -10,10 +11,8 @@ namespace {
 
 using nlohmann::json;
 
-const std::string kNiches = std::string(POLYLOC_SOURCE_DIR) + "/datasets/niches.wkt";
 /// Deep in an outer niche, where its twin looks alike.
 const std::string kTwin = "x=4.5&y=-3.25&deg=90";
-const std::string kEscape = "\uE00C", kShift = "\uE008";
 
 class ViewDrive : public ViewPage {
  protected:
@@ -88,11 +87,11 @@ TEST_F(ViewDrive, KeysDriveToTheEnd) {
   browser().press("a");
   ASSERT_TRUE(settled());
   EXPECT_EQ(state("step"), 0);
-  browser().press("d", kShift);
+  browser().press("d", kShiftKey);
   EXPECT_TRUE(browser().waitFor("polyloc.data.answer?.drive?.outcome"));
   EXPECT_EQ(drive("outcome"), "localized");
   EXPECT_EQ(text("travel-run"), "▶");
-  browser().press(kEscape);
+  browser().press(kEscapeKey);
   ASSERT_TRUE(settled());
   EXPECT_EQ(state("step"), -1);
   EXPECT_FALSE(shown("travel"));

@@ -1,13 +1,11 @@
 #include "ViewPage.h"
+#include "view_maps.h"
 
 #include <string>
 
 /// What hands do on the page of polyloc-view beside the robot, and what it does when nobody looks.
 namespace mrpt_polyloc::test {
 namespace {
-
-const std::string kShift = "\uE008";
-const std::string kFlat = std::string(POLYLOC_SOURCE_DIR) + "/datasets/flat.wkt";
 
 class ViewHand : public ViewPage {
  protected:
@@ -63,7 +61,7 @@ TEST_F(ViewHand, KeysMoveTheWallAhead) {
   ASSERT_TRUE(settled());
   EXPECT_EQ(browser().run(count), 1);
   EXPECT_GT(seen(), pushed + 1.0);
-  browser().press("w", kShift);
+  browser().press("w", kShiftKey);
   ASSERT_TRUE(settled());
   EXPECT_NEAR(seen(), pushed, 1e-3);
   browser().press("u");

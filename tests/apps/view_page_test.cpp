@@ -1,6 +1,7 @@
 #include "ViewPage.h"
 #include "pictures.h"
 #include "view_floor.h"
+#include "view_maps.h"
 
 #include <cmath>
 #include <csignal>
@@ -16,9 +17,6 @@ namespace {
 using nlohmann::json;
 
 const std::string kSource = POLYLOC_SOURCE_DIR;
-const std::string kNiches = kSource + "/datasets/niches.wkt";
-const std::string kFlat = kSource + "/datasets/flat.wkt";
-const std::string kLeft = "\uE012", kShift = "\uE008", kEnter = "\uE007";
 
 TEST_F(ViewPage, TheTourOfTheFirstVisitGoesThroughFiveSteps) {
   const ViewProcess server({});
@@ -99,8 +97,8 @@ TEST_F(ViewPage, KeysDoWhatTheMouseDoes) {
   const ViewProcess server({kFlat});
   open(server, "x=2.8&y=1&deg=10");
   browser().run("document.getElementById('map').focus()");
-  browser().press(kLeft);
-  browser().press(kLeft, kShift);
+  browser().press(kLeftKey);
+  browser().press(kLeftKey, kShiftKey);
   browser().press("q");
   ASSERT_TRUE(settled());
   EXPECT_NEAR(state("x").get<double>(), 1.7, 1e-6);
@@ -149,7 +147,7 @@ TEST_F(ViewPage, TwinsBySliderCompassAndMethod) {
   EXPECT_EQ(result()["hypotheses"].size(), 2U);
   const double second = result()["hypotheses"][1]["x"];
   browser().press("2");
-  browser().press(kEnter);  // to where the second answer is
+  browser().press(kEnterKey);  // to where the second answer is
   ASSERT_TRUE(settled());
   EXPECT_NEAR(state("x").get<double>(), second, 1e-6);
   open(server, "x=4.25&y=-3.25&deg=90&near=true&nearr=2");

@@ -1,6 +1,7 @@
 #include "ProgramTest.h"
 #include "ViewProcess.h"
 #include "view_answers.h"
+#include "view_maps.h"
 
 #include <nlohmann/json.hpp>
 
@@ -14,8 +15,6 @@ namespace mrpt_polyloc::test {
 namespace {
 
 using nlohmann::json;
-
-const std::string kNiches = std::string(POLYLOC_SOURCE_DIR) + "/datasets/niches.wkt";
 
 class ViewNiches : public ProgramTest {};
 

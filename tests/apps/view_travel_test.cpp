@@ -3,6 +3,7 @@
 #include "apps/polyloc-travel/TravelRun.h"
 #include "apps/polyloc-travel/World.h"
 #include "view_answers.h"
+#include "view_maps.h"
 #include <mrpt_polyloc/geometry/validation.h>
 #include <mrpt_polyloc/io/wkt.h>
 
@@ -21,7 +22,6 @@ namespace {
 
 using nlohmann::json;
 
-const std::string kNiches = std::string(POLYLOC_SOURCE_DIR) + "/datasets/niches.wkt";
 constexpr const char* kCorridor = "POLYGON ((0 0, 12 0, 12 2, 0 2, 0 0))\n";
 constexpr std::size_t kEnough = 60;  ///< steps, for these maps
 

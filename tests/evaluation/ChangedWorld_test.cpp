@@ -1,4 +1,6 @@
+#include "tests/support/constants.h"
 #include <mrpt_polyloc/base/Random.h>
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/ChangedWorld.h>
 
@@ -10,11 +12,9 @@
 namespace mrpt_polyloc {
 namespace {
 
+using test::kInfinity;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A hall of 10 m x 4 m with a pillar of 1 m2 in its left half, and an open edge in the middle of
 /// the upper side.

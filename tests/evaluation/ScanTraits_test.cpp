@@ -11,7 +11,7 @@ namespace mrpt_polyloc {
 namespace {
 
 /// A room of 6 m x 4 m whose right side is open to the unknown, with a wall 2 m behind it.
-PolygonMap room() {
+PolygonMap halfOpenRoom() {
   Ring outer = wallRing({{0, 0}, {6, 0}, {6, 4}, {0, 4}});
   outer.kinds[1] = EdgeKind::open;
   return PolygonMap({{outer, {}}}, {{{8, -3}, {8, 7}}});
@@ -29,7 +29,7 @@ RangeScan scanOf(const std::vector<double>& ranges, double fov) {
 }
 
 TEST(ScanTraits, CountsWhatDisagreesAsBruteForceDoes) {
-  const PolygonMap map = room();
+  const PolygonMap map = halfOpenRoom();
   const ScanJudge judge(map);
   const WallSegments walls(map);
   Random random(4);
@@ -65,7 +65,7 @@ TEST(ScanTraits, CountsWhatDisagreesAsBruteForceDoes) {
 }
 
 TEST(ScanTraits, TellsHowFarOutsideOfFreeSpaceTheSensorIs) {
-  const PolygonMap map = room();
+  const PolygonMap map = halfOpenRoom();
   const ScanJudge judge(map);
   const RangeScan scan({{0.0, 1.0, BeamKind::hit}}, {0.5, 0.0});
   EXPECT_NEAR(judge.traits(scan, {6.2, 2, 0}).outside, 0.7, 1e-9);    // the sensor is at 6.7
@@ -74,7 +74,7 @@ TEST(ScanTraits, TellsHowFarOutsideOfFreeSpaceTheSensorIs) {
 }
 
 TEST(ScanTraits, FieldOfViewIsTheCircleWithoutItsGap) {
-  const PolygonMap map = room();
+  const PolygonMap map = halfOpenRoom();
   const ScanJudge judge(map);
   const auto fov = [&](const RangeScan& scan) { return judge.traits(scan, {3, 2, 0}).fov; };
   EXPECT_NEAR(fov(scanOf(std::vector<double>(91, 1.0), kPi / 2)), kPi / 2, 1e-9);

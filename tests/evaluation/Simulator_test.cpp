@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/Simulator.h>
 #include <mrpt_polyloc/evaluation/WallSegments.h>
@@ -15,8 +16,6 @@ namespace {
 using mrpt::obs::CObservation2DRangeScan;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// An L of 12 m2 with a pillar of 1 m2: 11 m2 free, a quarter of the L's square missing.
 PolygonMap lRoom() {

@@ -1,19 +1,19 @@
+#include "tests/support/constants.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/WallSegments.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace mrpt_polyloc {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using test::kInfinity;
 
 /// A room of 4 m x 3 m whose right side is open, a pillar in it and a wall beyond the open side.
-PolygonMap room() {
+PolygonMap pillarRoom() {
   Ring outer{{{0, 0}, {4, 0}, {4, 3}, {0, 3}},
              {EdgeKind::wall, EdgeKind::open, EdgeKind::wall, EdgeKind::wall}};
   const Ring pillar = wallRing({{1, 1}, {1, 2}, {2, 2}, {2, 1}});
@@ -21,7 +21,7 @@ PolygonMap room() {
 }
 
 TEST(WallSegments, FindsTheFirstWallInEveryDirection) {
-  const WallSegments walls(room());
+  const WallSegments walls(pillarRoom());
   EXPECT_DOUBLE_EQ(walls.range({0.5, 1.5}, 0.0), 0.5);                   // the pillar
   EXPECT_DOUBLE_EQ(walls.range({0.5, 1.5}, kPi), 0.5);                   // the wall behind
   EXPECT_NEAR(walls.range({0.5, 0.5}, kPi / 4), std::sqrt(0.5), 1e-12);  // the pillar's corner
@@ -29,13 +29,13 @@ TEST(WallSegments, FindsTheFirstWallInEveryDirection) {
 }
 
 TEST(WallSegments, PassesOpenEdgesAndStopsAtWallsBeyond) {
-  const WallSegments walls(room());
+  const WallSegments walls(pillarRoom());
   EXPECT_DOUBLE_EQ(walls.range({3.0, 1.0}, 0.0), 3.0);
   EXPECT_EQ(walls.range({3.0, 2.0}, 0.0), kInfinity);  // above the end of the wall beyond
 }
 
 TEST(WallSegments, MeetsEndPointsAndWallsAlongTheBeam) {
-  const WallSegments walls(room());
+  const WallSegments walls(pillarRoom());
   EXPECT_DOUBLE_EQ(walls.range({3.0, 1.5}, 0.0), 3.0);  // the wall's upper end
   // Along the lower wall, from outside and from on it.
   EXPECT_DOUBLE_EQ(walls.range({-1.0, 0.0}, 0.0), 1.0);
@@ -44,7 +44,7 @@ TEST(WallSegments, MeetsEndPointsAndWallsAlongTheBeam) {
 }
 
 TEST(WallSegments, DistanceIsToTheNearestWallNotOpenEdge) {
-  const WallSegments walls(room());
+  const WallSegments walls(pillarRoom());
   EXPECT_DOUBLE_EQ(walls.distance({0.5, 1.5}), 0.5);
   EXPECT_DOUBLE_EQ(walls.distance({3.9, 1.5}), 1.5);  // the open side at 0.1 m does not count
   EXPECT_DOUBLE_EQ(walls.distance({9.0, 5.5}), 5.0);  // from the end of the wall beyond
@@ -78,7 +78,7 @@ TEST(WallSegments, AgreesWithMarchingInAConvexRoom) {
 TEST(WallSegments, DiscsStandInTheWay) {
   RoomChanges changes;
   changes.discs = {{{3.0, 1.5}, 0.25}};
-  const WallSegments walls(room(), changes);
+  const WallSegments walls(pillarRoom(), changes);
   EXPECT_NEAR(walls.range({3.0, 0.5}, kPi / 2), 0.75, 1e-12);
   EXPECT_NEAR(walls.range({3.0, 0.5}, -kPi / 2), 0.5, 1e-12);  // behind: the wall
   // Past its rim by a hair, and just not.
@@ -92,7 +92,7 @@ TEST(WallSegments, DiscsStandInTheWay) {
 TEST(WallSegments, AMovedWallIsTheNearestOne) {
   RoomChanges changes;
   changes.moved = {{{1.5, 2.9}, {0.0, -0.4}}};  // the upper wall
-  const WallSegments walls(room(), changes);
+  const WallSegments walls(pillarRoom(), changes);
   EXPECT_NEAR(walls.range({3.0, 0.5}, kPi / 2), 2.1, 1e-12);
   EXPECT_NEAR(walls.range({3.0, 0.5}, -kPi / 2), 0.5, 1e-12);
   EXPECT_NEAR(walls.range({0.5, 1.5}, 0.0), 0.5, 1e-12);  // the pillar stands where it stood
@@ -100,7 +100,7 @@ TEST(WallSegments, AMovedWallIsTheNearestOne) {
 
 TEST(WallSegments, RefusesBadChanges) {
   const auto refused = [](const RoomChanges& changes) {
-    EXPECT_THROW(WallSegments(room(), changes), InvalidParamsError);
+    EXPECT_THROW(WallSegments(pillarRoom(), changes), InvalidParamsError);
   };
   refused({{{{1.0, 1.0}, 0.0}}, {}});
   refused({{{{std::nan(""), 1.0}, 1.0}}, {}});

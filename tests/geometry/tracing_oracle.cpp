@@ -72,7 +72,7 @@ bool isVertex(const Ring& ring, const TPoint2D& p) {
 
 }  // namespace
 
-std::vector<TracedEdge> edgesOf(const PolygonMap& map) {
+std::vector<TracedEdge> tracedEdges(const PolygonMap& map) {
   std::vector<TracedEdge> edges;
   for (const Ring* ring : map.rings()) {
     for (std::size_t i = 0; i < ring->size(); ++i) {
@@ -158,7 +158,7 @@ SideCounts countSides(const OccupancyBitmap& bitmap) {
 }
 
 std::string findCrossing(const PolygonMap& map) {
-  const std::vector<TracedEdge> edges = edgesOf(map);
+  const std::vector<TracedEdge> edges = tracedEdges(map);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t j = i + 1; j < edges.size(); ++j) {
       if (conflict(edges[i], edges[j])) return describe(edges[i], edges[j]);
@@ -168,7 +168,7 @@ std::string findCrossing(const PolygonMap& map) {
 }
 
 std::string findCrossingInSquares(const PolygonMap& map, double side) {
-  const std::vector<TracedEdge> edges = edgesOf(map);
+  const std::vector<TracedEdge> edges = tracedEdges(map);
   std::map<std::pair<int, int>, std::vector<std::size_t>> squares;
   const auto number = [side](double v) { return static_cast<int>(std::floor(v / side)); };
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -192,7 +192,7 @@ std::string findCrossingInSquares(const PolygonMap& map, double side) {
 
 std::vector<bool> freeCentres(const PolygonMap& map, int width, int height) {
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(height));
-  for (const TracedEdge& edge : edgesOf(map)) {
+  for (const TracedEdge& edge : tracedEdges(map)) {
     if (edge.kind == 'b') continue;
     const auto [low, high] = std::minmax({edge.a.y, edge.b.y});
     for (int row = std::max(0, static_cast<int>(low) - 1); row < height && row <= high; ++row) {

@@ -15,7 +15,7 @@ struct TracedEdge {
   char kind;
 };
 
-std::vector<TracedEdge> edgesOf(const PolygonMap& map);
+std::vector<TracedEdge> tracedEdges(const PolygonMap& map);
 
 double distance(const TPoint2D& p, const TracedEdge& edge);
 double distance(const TPoint2D& p, const std::vector<TracedEdge>& edges);

@@ -87,7 +87,7 @@ TEST(Tracing, FollowsTheCellSidesExactly) {
 
 TEST(Tracing, EveryCellSideHasItsKind) {
   forAwkward(exact(), [](const PolygonMap& map, const OccupancyBitmap& bitmap) {
-    for (const TracedEdge& edge : edgesOf(map)) {
+    for (const TracedEdge& edge : tracedEdges(map)) {
       const double length = std::hypot(edge.b.x - edge.a.x, edge.b.y - edge.a.y);
       const TPoint2D along{(edge.b.x - edge.a.x) / length, (edge.b.y - edge.a.y) / length};
       for (double at = 0.5; at < length; at += 1.0) {
@@ -138,11 +138,11 @@ TEST(Tracing, SimplificationKeepsComponentsHolesAndWallsBeyond) {
 /// Greatest distance from the edges of one kind, sampled densely, to those of another map.
 double directedDistance(const PolygonMap& from, const PolygonMap& to, char kind) {
   std::vector<TracedEdge> targets;
-  for (const TracedEdge& edge : edgesOf(to)) {
+  for (const TracedEdge& edge : tracedEdges(to)) {
     if (edge.kind == kind) targets.push_back(edge);
   }
   double greatest = 0.0;
-  for (const TracedEdge& edge : edgesOf(from)) {
+  for (const TracedEdge& edge : tracedEdges(from)) {
     if (edge.kind != kind) continue;
     for (double t = 0.0; t <= 1.0; t += 0.125) {
       const TPoint2D p{edge.a.x + t * (edge.b.x - edge.a.x), edge.a.y + t * (edge.b.y - edge.a.y)};
@@ -167,7 +167,7 @@ TEST(Tracing, StaysWithinTheTolerance) {
 
 TEST(Tracing, CellsFarFromTheBorderKeepTheirState) {
   forAwkward(simplified(1.0), [](const PolygonMap& map, const OccupancyBitmap& bitmap) {
-    const std::vector<TracedEdge> borders = edgesOf(traceBitmap(bitmap, exact()));
+    const std::vector<TracedEdge> borders = tracedEdges(traceBitmap(bitmap, exact()));
     for (int row = 0; row < bitmap.height; ++row) {
       for (int column = 0; column < bitmap.width; ++column) {
         const TPoint2D centre{column + 0.5, row + 0.5};
@@ -291,8 +291,8 @@ TEST(Tracing, PoseIsAppliedUnrounded) {
   bitmap.resolution = 0.1;
   bitmap.pose_map_bitmap = {1.2345, -6.789, 0.3};
   const PolygonMap placed = traceBitmap(bitmap, exact());
-  const std::vector<TracedEdge> from = edgesOf(plain);
-  const std::vector<TracedEdge> to = edgesOf(placed);
+  const std::vector<TracedEdge> from = tracedEdges(plain);
+  const std::vector<TracedEdge> to = tracedEdges(placed);
   ASSERT_EQ(from.size(), to.size());
   for (std::size_t i = 0; i < from.size(); ++i) {
     const double x = 0.1 * from[i].a.x;

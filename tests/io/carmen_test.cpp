@@ -1,4 +1,5 @@
 #include "tests/support/bridge_files.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/io/carmen.h>
 
@@ -13,9 +14,6 @@ namespace {
 using test::formatErrorOf;
 using testing::AllOf;
 using testing::HasSubstr;
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegree = kPi / 180;
 
 std::string repeated(const std::string& word, std::size_t count) {
   std::string text;

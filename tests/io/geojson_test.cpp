@@ -33,7 +33,7 @@ RawMap parse(const std::vector<std::string>& features) {
   return parseGeoJson(collection(features), "map.geojson");
 }
 
-std::string errorOf(const std::string& text) {
+std::string geoJsonErrorOf(const std::string& text) {
   return messageOf<FormatError>([&] { parseGeoJson(text, "map.geojson"); });
 }
 
@@ -71,7 +71,7 @@ TEST(GeoJson, SnapsToTheExactVertexWhereSeveralAreNear) {
 
 TEST(GeoJson, OpenLinesOffTheBorderAreErrors) {
   const auto error = [](const std::string& line) {
-    return errorOf(collection({kRoom, feature("open", "LineString", line)}));
+    return geoJsonErrorOf(collection({kRoom, feature("open", "LineString", line)}));
   };
   EXPECT_THAT(error("[[4, 0], [4, 2.99999]]"),
               AllOf(HasSubstr("map.geojson: features[1].geometry.coordinates[1]: "),
@@ -86,7 +86,7 @@ TEST(GeoJson, OpenLinesOffTheBorderAreErrors) {
 
 TEST(GeoJson, ErrorsNameThePath) {
   const auto error = [](const std::string& coordinates) {
-    return errorOf(collection({kRoom, kRoom, feature("free", "Polygon", coordinates)}));
+    return geoJsonErrorOf(collection({kRoom, kRoom, feature("free", "Polygon", coordinates)}));
   };
   EXPECT_EQ(error("[[[0, 0], [1, 0], [1, 1], [\"0\", 1]]]"),
             "map.geojson: features[2].geometry.coordinates[0][3][0]: expected a finite number");
@@ -101,16 +101,17 @@ TEST(GeoJson, ErrorsNameThePath) {
 }
 
 TEST(GeoJson, ErrorsNameTheFeatureOfAnUnknownKind) {
-  EXPECT_EQ(errorOf(collection({kRoom, feature("door", "LineString", "[[0, 0], [1, 1]]")})),
+  EXPECT_EQ(geoJsonErrorOf(collection({kRoom, feature("door", "LineString", "[[0, 0], [1, 1]]")})),
             "map.geojson: features[1].properties.kind: unknown kind \"door\", expected \"free\", "
             "\"open\" or \"wall\"");
-  EXPECT_THAT(errorOf(collection({R"({"type": "Feature", "properties": {"kind": 1}})"})),
+  EXPECT_THAT(geoJsonErrorOf(collection({R"({"type": "Feature", "properties": {"kind": 1}})"})),
               HasSubstr("features[0].properties.kind: expected a string"));
-  EXPECT_THAT(errorOf(collection({feature("free", "LineString", "[]")})),
+  EXPECT_THAT(geoJsonErrorOf(collection({feature("free", "LineString", "[]")})),
               HasSubstr("features[0].geometry.type: \"LineString\", expected \"Polygon\" or"));
-  EXPECT_THAT(errorOf(collection({feature("wall", "Polygon", "[]")})),
+  EXPECT_THAT(geoJsonErrorOf(collection({feature("wall", "Polygon", "[]")})),
               HasSubstr("expected \"LineString\" or \"MultiLineString\""));
-  EXPECT_THAT(errorOf(collection({R"({"type": "Polygon"})"})), HasSubstr("expected \"Feature\""));
+  EXPECT_THAT(geoJsonErrorOf(collection({R"({"type": "Polygon"})"})),
+              HasSubstr("expected \"Feature\""));
 }
 
 TEST(GeoJson, ReadsWhatOthersWrite) {
@@ -135,28 +136,28 @@ TEST(GeoJson, ReadsWhatOthersWrite) {
 }
 
 TEST(GeoJson, ErrorsOfTheDocument) {
-  EXPECT_EQ(errorOf(""), "map.geojson: the file is empty");
-  EXPECT_EQ(errorOf(" \n"), "map.geojson: the file is empty");
-  EXPECT_THAT(errorOf("{\n  \"type\": nan}"), HasSubstr("map.geojson: line 2, column 12: "));
-  EXPECT_THAT(errorOf(collection({kRoom}).substr(0, 100)), HasSubstr("map.geojson: line "));
-  EXPECT_THAT(errorOf("[1, 1e999]"), HasSubstr("1e999"));
-  EXPECT_THAT(errorOf("[]"), HasSubstr("expected an object"));
-  EXPECT_THAT(errorOf("{}"), HasSubstr("has no \"type\""));
-  EXPECT_THAT(errorOf(R"({"type": "Feature"})"), HasSubstr("has no \"geometry\""));
-  EXPECT_THAT(errorOf(R"({"type": "Topology"})"),
+  EXPECT_EQ(geoJsonErrorOf(""), "map.geojson: the file is empty");
+  EXPECT_EQ(geoJsonErrorOf(" \n"), "map.geojson: the file is empty");
+  EXPECT_THAT(geoJsonErrorOf("{\n  \"type\": nan}"), HasSubstr("map.geojson: line 2, column 12: "));
+  EXPECT_THAT(geoJsonErrorOf(collection({kRoom}).substr(0, 100)), HasSubstr("map.geojson: line "));
+  EXPECT_THAT(geoJsonErrorOf("[1, 1e999]"), HasSubstr("1e999"));
+  EXPECT_THAT(geoJsonErrorOf("[]"), HasSubstr("expected an object"));
+  EXPECT_THAT(geoJsonErrorOf("{}"), HasSubstr("has no \"type\""));
+  EXPECT_THAT(geoJsonErrorOf(R"({"type": "Feature"})"), HasSubstr("has no \"geometry\""));
+  EXPECT_THAT(geoJsonErrorOf(R"({"type": "Topology"})"),
               AllOf(HasSubstr("type: \"Topology\" is not \"FeatureCollection\""),
                     HasSubstr("a map looks like {\"type\": \"Feature\"")));
-  EXPECT_THAT(errorOf(R"({"type": "Feature", "geometry": {"type": "Point"}})"),
+  EXPECT_THAT(geoJsonErrorOf(R"({"type": "Feature", "geometry": {"type": "Point"}})"),
               AllOf(HasSubstr("holds no polygon"), HasSubstr("a map looks like")));
-  EXPECT_THAT(errorOf(R"({"type": "FeatureCollection"})"), HasSubstr("has no \"features\""));
-  EXPECT_THAT(errorOf(R"({"type": "FeatureCollection", "features": {}})"),
+  EXPECT_THAT(geoJsonErrorOf(R"({"type": "FeatureCollection"})"), HasSubstr("has no \"features\""));
+  EXPECT_THAT(geoJsonErrorOf(R"({"type": "FeatureCollection", "features": {}})"),
               HasSubstr("features: expected an array"));
-  EXPECT_THAT(errorOf("{\"type\": \"\xff\"}"), HasSubstr("map.geojson: line 1"));
+  EXPECT_THAT(geoJsonErrorOf("{\"type\": \"\xff\"}"), HasSubstr("map.geojson: line 1"));
 }
 
 TEST(GeoJson, ManyBracketsAreAnErrorNotACrash) {
-  EXPECT_THAT(errorOf(std::string(1000000, '[')), HasSubstr("map.geojson: line 1"));
-  EXPECT_NE(errorOf(std::string(200000, '[') + std::string(200000, ']')), "");
+  EXPECT_THAT(geoJsonErrorOf(std::string(1000000, '[')), HasSubstr("map.geojson: line 1"));
+  EXPECT_NE(geoJsonErrorOf(std::string(200000, '[') + std::string(200000, ']')), "");
 }
 
 PolygonMap roundTrip(const PolygonMap& map) {

@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string errorOf(const std::string& text) {
+std::string houseExpoErrorOf(const std::string& text) {
   return messageOf<FormatError>([&] { parseHouseExpo(text, "home.json"); });
 }
 
@@ -26,13 +26,15 @@ TEST(HouseExpo, ReadsVertsAndIgnoresTheRest) {
 }
 
 TEST(HouseExpo, ErrorsNameThePlace) {
-  EXPECT_EQ(errorOf(R"({"id": "abc"})"), "home.json: has no \"verts\"");
-  EXPECT_THAT(errorOf(R"({"verts": 3})"), HasSubstr("home.json: verts: expected an array"));
-  EXPECT_THAT(errorOf(R"({"verts": [[0, 0], [1, "a"]]})"),
+  EXPECT_EQ(houseExpoErrorOf(R"({"id": "abc"})"), "home.json: has no \"verts\"");
+  EXPECT_THAT(houseExpoErrorOf(R"({"verts": 3})"),
+              HasSubstr("home.json: verts: expected an array"));
+  EXPECT_THAT(houseExpoErrorOf(R"({"verts": [[0, 0], [1, "a"]]})"),
               HasSubstr("home.json: verts[1][1]: expected a finite number"));
-  EXPECT_THAT(errorOf(R"({"verts": [[0, 0], [1, 0)"), HasSubstr("home.json: line 1, column "));
-  EXPECT_THAT(errorOf(""), HasSubstr("the file is empty"));
-  EXPECT_THAT(errorOf("[]"), HasSubstr("expected an object"));
+  EXPECT_THAT(houseExpoErrorOf(R"({"verts": [[0, 0], [1, 0)"),
+              HasSubstr("home.json: line 1, column "));
+  EXPECT_THAT(houseExpoErrorOf(""), HasSubstr("the file is empty"));
+  EXPECT_THAT(houseExpoErrorOf("[]"), HasSubstr("expected an object"));
 }
 
 }  // namespace

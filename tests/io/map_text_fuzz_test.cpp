@@ -55,13 +55,14 @@ std::string mutated(std::string text, std::mt19937& random) {
   return text;
 }
 
-struct Tally {
+struct FuzzTally {
   int valid = 0, invalid = 0, unreadable = 0;
 };
 
 template <class Parse>
-Tally fuzz(const std::vector<std::string>& texts, int rounds, unsigned seed, const Parse& parse) {
-  Tally tally;
+FuzzTally fuzz(const std::vector<std::string>& texts, int rounds, unsigned seed,
+               const Parse& parse) {
+  FuzzTally tally;
   std::mt19937 random(seed);
   for (int i = 0; i < rounds; ++i) {
     const std::string text = mutated(texts[static_cast<std::size_t>(i) % texts.size()], random);
@@ -86,7 +87,7 @@ Tally fuzz(const std::vector<std::string>& texts, int rounds, unsigned seed, con
 }
 
 TEST(MapTextFuzz, Wkt) {
-  const Tally tally =
+  const FuzzTally tally =
       fuzz({toWkt(lRoomMap()), toWkt(pillarMap(2, 1)), toWkt(touchingHolesMap()),
             "MULTIPOLYGON (((0 0, 4 0, 4 4, 0 4)), ((5 5, 9 5, 9 9), (6 5.5, 8 5.5, 8 7)))\n"
             "POLYGON ((10 10, 12 10, 12 12))\n"},
@@ -98,7 +99,7 @@ TEST(MapTextFuzz, Wkt) {
 
 TEST(MapTextFuzz, GeoJson) {
   const PolygonMap open = withOpenEdges(pillarMap(1, 1), 0.4, 3);
-  const Tally tally =
+  const FuzzTally tally =
       fuzz({toGeoJson(lRoomMap()), toGeoJson(touchingHolesMap()),
             toGeoJson(PolygonMap(open.components(), {{{20, 0}, {20, 5}}}))},
            6000, 12, [](const std::string& text) { return parseGeoJson(text, "fuzz"); });
@@ -108,7 +109,7 @@ TEST(MapTextFuzz, GeoJson) {
 }
 
 TEST(MapTextFuzz, HouseExpo) {
-  const Tally tally =
+  const FuzzTally tally =
       fuzz({R"({"verts": [[0, 0], [4, 0], [4, 4], [2, 4], [2, 2], [0, 2]], "id": "x"})"}, 3000, 13,
            [](const std::string& text) { return parseHouseExpo(text, "fuzz"); });
   EXPECT_GT(tally.valid, 200);

@@ -1,4 +1,5 @@
 #include "tests/support/bridge_files.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/io/observation.h>
 
 #include <gmock/gmock.h>
@@ -14,8 +15,6 @@ namespace {
 using mrpt::obs::CObservation2DRangeScan;
 using testing::AllOf;
 using testing::HasSubstr;
-
-constexpr double kPi = 3.14159265358979323846;
 
 CObservation2DRangeScan plainScan(std::size_t beams, double aperture) {
   CObservation2DRangeScan scan;

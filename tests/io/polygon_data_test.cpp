@@ -19,17 +19,17 @@
 namespace mrpt_polyloc::test {
 namespace {
 
-struct Tally {
+struct InspectionTally {
   int valid = 0, repaired = 0, refused = 0;
 };
 
-std::ostream& operator<<(std::ostream& out, const Tally& tally) {
+std::ostream& operator<<(std::ostream& out, const InspectionTally& tally) {
   return out << tally.valid << " valid, " << tally.repaired << " repaired, " << tally.refused
              << " refused";
 }
 
 /// Checks a map that was read and counts what became of it.
-void inspect(const std::string& name, const RawMap& raw, Tally& tally) {
+void inspect(const std::string& name, const RawMap& raw, InspectionTally& tally) {
   SCOPED_TRACE(name);
   const MapInspection inspection = inspectMap(raw);
   if (!inspection.map) {
@@ -60,7 +60,7 @@ TEST(PolygonData, EveryPlanLoadsOrIsRefusedWithPlaces) {
   for (const auto& path : filesOf(data + "/plans")) {
     mrpt::io::CFileGZInputStream file;
     ASSERT_TRUE(file.open(path.string()));
-    Tally tally;
+    InspectionTally tally;
     std::string text(1 << 20, '\0');
     std::string all;
     while (const std::size_t size = file.Read(text.data(), text.size())) all.append(text, 0, size);
@@ -79,7 +79,7 @@ TEST(PolygonData, EveryPlanLoadsOrIsRefusedWithPlaces) {
 
 TEST(PolygonData, EveryPolygonLoadsOrIsRefusedWithPlaces) {
   POLYLOC_DATA_OR_SKIP(data);
-  Tally tally;
+  InspectionTally tally;
   for (const auto& path : filesOf(data + "/polygons")) {
     inspect(path.filename().string(), readRawMap(path.string()), tally);
   }

@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-std::string errorOf(const std::string& text) {
+std::string wktErrorOf(const std::string& text) {
   return messageOf<FormatError>([&] { parseWkt(text, "plan.wkt"); });
 }
 
@@ -43,41 +43,43 @@ TEST(Wkt, EmptyGeometriesCountForNothing) {
 }
 
 TEST(Wkt, ErrorsNameFileLineAndColumn) {
-  EXPECT_EQ(errorOf("POLYGON ((0 0, 1 0, 1 1))\nPOINT (1 2)"),
+  EXPECT_EQ(wktErrorOf("POLYGON ((0 0, 1 0, 1 1))\nPOINT (1 2)"),
             "plan.wkt: line 2, column 1: geometry type POINT: only POLYGON and MULTIPOLYGON can be "
             "a map, as POLYGON ((0 0, 10 0, 10 8, 0 8, 0 0)) in metres");
-  EXPECT_EQ(errorOf("POLYGON ((0 0, 1 0,\n  x 1))"),
+  EXPECT_EQ(wktErrorOf("POLYGON ((0 0, 1 0,\n  x 1))"),
             "plan.wkt: line 2, column 3: expected a number");
-  EXPECT_EQ(errorOf(""), "plan.wkt: line 1, column 1: the file is empty");
-  EXPECT_THAT(errorOf(" \n\t\n"), HasSubstr("the file is empty"));
+  EXPECT_EQ(wktErrorOf(""), "plan.wkt: line 1, column 1: the file is empty");
+  EXPECT_THAT(wktErrorOf(" \n\t\n"), HasSubstr("the file is empty"));
 }
 
 TEST(Wkt, RefusesWhatIsNotAMap) {
-  EXPECT_THAT(errorOf("POLYGON ((0 0 0 0 0, 1 0, 1 1))"), HasSubstr("expected ',' or ')'"));
-  EXPECT_THAT(errorOf("POLYGON ((0 0, 1 0, 1 1));;"), HasSubstr("text after the end"));
-  EXPECT_THAT(errorOf("GEOMETRYCOLLECTION (POINT (1 2))"),
+  EXPECT_THAT(wktErrorOf("POLYGON ((0 0 0 0 0, 1 0, 1 1))"), HasSubstr("expected ',' or ')'"));
+  EXPECT_THAT(wktErrorOf("POLYGON ((0 0, 1 0, 1 1));;"), HasSubstr("text after the end"));
+  EXPECT_THAT(wktErrorOf("GEOMETRYCOLLECTION (POINT (1 2))"),
               HasSubstr("column 21: geometry type POINT"));
-  EXPECT_THAT(errorOf("POLYGON ((0 0, 1 0, nan 1))"), HasSubstr("not finite"));
-  EXPECT_THAT(errorOf("POLYGON ((0 0, 1 0, 1 -inf))"), HasSubstr("not finite"));
-  EXPECT_THAT(errorOf("POLYGON ((0 0, 1 0, 1 1e999))"), HasSubstr("out of range"));
-  EXPECT_THAT(errorOf("POLYGON ((0 0, 1 0, 1 1)) x"), HasSubstr("column 27: text after the end"));
-  EXPECT_THAT(errorOf("POLYGON ((0 0, 1 0, 1 1)) POLYGON EMPTY"), HasSubstr("text after the end"));
-  EXPECT_THAT(errorOf("POLYGON ((0 0, 1 0, 1 1)))"), HasSubstr("text after the end"));
-  EXPECT_THAT(errorOf("POLYGON ((0 0, 1 0, 1"), HasSubstr("the text ends"));
-  EXPECT_THAT(errorOf("POLYGON ((0 0, 1 0, 1 1)"), HasSubstr("the text ends"));
-  EXPECT_THAT(errorOf("POLYGON"), HasSubstr("the text ends"));
-  EXPECT_THAT(errorOf("POLYGON ()"), HasSubstr("expected '('"));
-  EXPECT_THAT(errorOf("POLYGON (())"), HasSubstr("expected a number"));
-  EXPECT_THAT(errorOf("POLYGON (EMPTY)"), HasSubstr("expected '('"));
-  EXPECT_THAT(errorOf("POLYGON EMPTYNESS"), HasSubstr("expected '(' or EMPTY"));
-  EXPECT_THAT(errorOf("POLYGON ((0,0, 1 0, 1 1))"), HasSubstr("expected a number"));
-  EXPECT_THAT(errorOf("POLYGON ((0 0; 1 0; 1 1))"), HasSubstr("expected ',' or ')'"));
-  EXPECT_THAT(errorOf("SRID=4326;POLYGON ((0 0, 1 0, 1 1))"),
+  EXPECT_THAT(wktErrorOf("POLYGON ((0 0, 1 0, nan 1))"), HasSubstr("not finite"));
+  EXPECT_THAT(wktErrorOf("POLYGON ((0 0, 1 0, 1 -inf))"), HasSubstr("not finite"));
+  EXPECT_THAT(wktErrorOf("POLYGON ((0 0, 1 0, 1 1e999))"), HasSubstr("out of range"));
+  EXPECT_THAT(wktErrorOf("POLYGON ((0 0, 1 0, 1 1)) x"),
+              HasSubstr("column 27: text after the end"));
+  EXPECT_THAT(wktErrorOf("POLYGON ((0 0, 1 0, 1 1)) POLYGON EMPTY"),
+              HasSubstr("text after the end"));
+  EXPECT_THAT(wktErrorOf("POLYGON ((0 0, 1 0, 1 1)))"), HasSubstr("text after the end"));
+  EXPECT_THAT(wktErrorOf("POLYGON ((0 0, 1 0, 1"), HasSubstr("the text ends"));
+  EXPECT_THAT(wktErrorOf("POLYGON ((0 0, 1 0, 1 1)"), HasSubstr("the text ends"));
+  EXPECT_THAT(wktErrorOf("POLYGON"), HasSubstr("the text ends"));
+  EXPECT_THAT(wktErrorOf("POLYGON ()"), HasSubstr("expected '('"));
+  EXPECT_THAT(wktErrorOf("POLYGON (())"), HasSubstr("expected a number"));
+  EXPECT_THAT(wktErrorOf("POLYGON (EMPTY)"), HasSubstr("expected '('"));
+  EXPECT_THAT(wktErrorOf("POLYGON EMPTYNESS"), HasSubstr("expected '(' or EMPTY"));
+  EXPECT_THAT(wktErrorOf("POLYGON ((0,0, 1 0, 1 1))"), HasSubstr("expected a number"));
+  EXPECT_THAT(wktErrorOf("POLYGON ((0 0; 1 0; 1 1))"), HasSubstr("expected ',' or ')'"));
+  EXPECT_THAT(wktErrorOf("SRID=4326;POLYGON ((0 0, 1 0, 1 1))"),
               HasSubstr("column 1: SRID 4326 is degrees"));
-  EXPECT_THAT(errorOf("MULTIPOLYGON ((0 0, 1 0, 1 1))"), HasSubstr("expected '('"));
-  EXPECT_THAT(errorOf("{\"verts\": []}"), HasSubstr("expected POLYGON or MULTIPOLYGON"));
-  EXPECT_THAT(errorOf(std::string("POLYGON\0((0 0, 1 0, 1 1))", 25)), HasSubstr("expected '('"));
-  EXPECT_THAT(errorOf("POLYGON ((+-1 0, 1 0, 1 1))"), HasSubstr("expected a number"));
+  EXPECT_THAT(wktErrorOf("MULTIPOLYGON ((0 0, 1 0, 1 1))"), HasSubstr("expected '('"));
+  EXPECT_THAT(wktErrorOf("{\"verts\": []}"), HasSubstr("expected POLYGON or MULTIPOLYGON"));
+  EXPECT_THAT(wktErrorOf(std::string("POLYGON\0((0 0, 1 0, 1 1))", 25)), HasSubstr("expected '('"));
+  EXPECT_THAT(wktErrorOf("POLYGON ((+-1 0, 1 0, 1 1))"), HasSubstr("expected a number"));
 }
 
 TEST(Wkt, ReadsWhatOthersWrite) {
@@ -95,7 +97,7 @@ TEST(Wkt, ReadsWhatOthersWrite) {
   }
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "GEOMETRYCOLLECTION (";
-  EXPECT_THAT(errorOf(deep), HasSubstr("more than 100 collections"));
+  EXPECT_THAT(wktErrorOf(deep), HasSubstr("more than 100 collections"));
 }
 
 TEST(Wkt, RoundTripIsExact) {

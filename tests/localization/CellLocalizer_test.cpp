@@ -1,6 +1,9 @@
+#include "expect_pose.h"
+#include "tests/support/constants.h"
 #include "tests/support/params_messages.h"
 #include "tests/support/random_maps.h"
 #include "tests/support/simulated_scans.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/localization/CellLocalizer.h>
 #include <mrpt_polyloc/localization/nearest_cells/ViewIndex.h>
 #include <mrpt_polyloc/localization/nearest_cells/cell_views.h>
@@ -13,7 +16,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 
 namespace mrpt_polyloc::test {
@@ -21,22 +23,6 @@ namespace {
 
 using mrpt::math::TPose2D;
 using ::testing::HasSubstr;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-bool holdsPose(const LocalizationResult& result, const TPose2D& pose, double distance = 0.05) {
-  return std::any_of(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
-    return distanceBetween(h.pose_map_robot, pose) < distance &&
-           turnBetween(h.pose_map_robot, pose) < 0.02;
-  });
-}
-
-void expectFirstIs(const LocalizationResult& result, const TPose2D& truth, double distance = 0.02) {
-  ASSERT_FALSE(result.hypotheses.empty()) << toString(result.status);
-  const TPose2D& first = result.hypotheses.front().pose_map_robot;
-  EXPECT_LT(distanceBetween(first, truth), distance) << first.asString();
-  EXPECT_LT(turnBetween(first, truth), 0.01) << first.asString();
-}
 
 const CellLocalizer& inAsymmetricRoom() {
   static const CellLocalizer localizer(asymmetricRoom());

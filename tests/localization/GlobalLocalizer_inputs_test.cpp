@@ -1,6 +1,8 @@
 // What a localizer makes of scans, priors and parameters out of the ordinary.
 #include "global_localizer.h"
+#include "tests/support/constants.h"
 #include "tests/support/params_messages.h"
+#include <mrpt_polyloc/base/angles.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <random>
 #include <utility>
 #include <vector>
@@ -49,8 +50,6 @@ TEST_F(InAsymmetricRoom, AScanFromOutsideTheMapGetsADefinedAnswer) {
 }
 
 TEST_F(InAsymmetricRoom, TooFewBeams) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const auto all = [](double range, BeamKind kind) {
     std::vector<Beam> beams;
     for (int i = 0; i < 360; ++i) beams.push_back({i * kPi / 180, range, kind});
@@ -58,7 +57,7 @@ TEST_F(InAsymmetricRoom, TooFewBeams) {
   };
   for (const RangeScan& scan :
        {RangeScan({}), RangeScan({{0, 2, BeamKind::hit}}), all(2.0, BeamKind::invalid),
-        all(20.0, BeamKind::no_return), all(kNan, BeamKind::hit), all(kInfinity, BeamKind::hit),
+        all(20.0, BeamKind::no_return), all(kNaN, BeamKind::hit), all(kInfinity, BeamKind::hit),
         all(1e300, BeamKind::hit), all(-1.0, BeamKind::hit), all(0.0, BeamKind::hit)}) {
     const auto result = localizer().localize(scan);
     EXPECT_EQ(result.status, LocalizationStatus::too_few_beams);
@@ -92,16 +91,15 @@ TEST_F(InAsymmetricRoom, RangesAndBearingsOfAnySizeAreAnswered) {
 }
 
 TEST(GlobalLocalizer, RefusesAPriorThatSaysNothing) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   PosePrior compass;
   compass.compass = PosePrior::Compass{0.0, 4.0};
   EXPECT_THAT(complaintOf(compass), HasSubstr("compass tolerance"));
-  compass.compass = PosePrior::Compass{nan, 0.1};
+  compass.compass = PosePrior::Compass{kNaN, 0.1};
   EXPECT_THAT(complaintOf(compass), HasSubstr("compass heading"));
   PosePrior disk;
   disk.near = PosePrior::Disk{0.0, 0.0, -1.0};
   EXPECT_THAT(complaintOf(disk), HasSubstr("near radius"));
-  disk.near = PosePrior::Disk{0.0, std::numeric_limits<double>::infinity(), 1.0};
+  disk.near = PosePrior::Disk{0.0, kInfinity, 1.0};
   EXPECT_THAT(complaintOf(disk), HasSubstr("near y"));
 }
 
@@ -124,7 +122,7 @@ TEST(SearchOptions, ChecksNameTheField) {
   options.max_hypotheses = 0;
   EXPECT_THAT(complaintOf(options), HasSubstr("max_hypotheses"));
   options = {};
-  for (const double bad : {-1.0, std::nan("")}) {
+  for (const double bad : {-1.0, kNaN}) {
     options.time_budget_ms = bad;
     EXPECT_THAT(complaintOf(options), HasSubstr("time_budget_ms"));
     EXPECT_THROW(GlobalLocalizer(squareMap(1.0)).localize(RangeScan({}), {}, options),

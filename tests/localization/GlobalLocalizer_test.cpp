@@ -1,5 +1,7 @@
+#include "expect_pose.h"
 #include "global_localizer.h"
 #include "tests/support/random_maps.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 
 #include <gtest/gtest.h>
@@ -15,20 +17,6 @@ namespace mrpt_polyloc::test {
 namespace {
 
 using mrpt::math::TPose2D;
-
-bool holdsPose(const LocalizationResult& result, const TPose2D& pose, double distance = 0.05) {
-  return std::any_of(result.hypotheses.begin(), result.hypotheses.end(), [&](const Hypothesis& h) {
-    return distanceBetween(h.pose_map_robot, pose) < distance &&
-           turnBetween(h.pose_map_robot, pose) < 0.02;
-  });
-}
-
-void expectFirstIs(const LocalizationResult& result, const TPose2D& truth, double distance = 0.02) {
-  ASSERT_FALSE(result.hypotheses.empty()) << toString(result.status);
-  const TPose2D& first = result.hypotheses.front().pose_map_robot;
-  EXPECT_LT(distanceBetween(first, truth), distance) << first.asString();
-  EXPECT_LT(turnBetween(first, truth), 0.01) << first.asString();
-}
 
 /// Equal but for the times.
 void expectSame(const LocalizationResult& a, const LocalizationResult& b) {

@@ -20,7 +20,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-bool holds(const PoseRegion& region, const TPose2D& pose) {
+bool regionHolds(const PoseRegion& region, const TPose2D& pose) {
   const double window = std::remainder(region.last_heading - region.first_heading, 2 * kPi);
   const double turn = pose.phi - region.first_heading;
   if (turn - 2 * kPi * std::floor(turn / (2 * kPi)) > window + 1e-6 &&
@@ -43,10 +43,10 @@ struct Attempt {
   double worst = 0.0;  ///< how far below the certified cost [m]
 };
 
-class Adversary {
+class CertificateAdversary {
  public:
-  Adversary(const PolygonMap& map, const LocalizationResult& result, const BruteForceCost& cost,
-            std::mt19937& random)
+  CertificateAdversary(const PolygonMap& map, const LocalizationResult& result,
+                       const BruteForceCost& cost, std::mt19937& random)
       : map_(map), triangulation_(map), result_(result), cost_(cost), random_(random) {}
 
   /// The cost of a pose, which is held against the certificate; infinite outside free space.
@@ -59,7 +59,7 @@ class Adversary {
     if (gap < 0) return cost;
     ++tally.below;
     if (std::none_of(result_.regions.begin(), result_.regions.end(),
-                     [&](const PoseRegion& region) { return holds(region, pose); })) {
+                     [&](const PoseRegion& region) { return regionHolds(region, pose); })) {
       ++tally.outside;
       tally.worst = std::max(tally.worst, gap);
     }
@@ -156,7 +156,7 @@ TEST(Certificate, NoPoseOutsideTheRegionsCostsLess) {
       EXPECT_TRUE(result.certificate->is_complete);
       EXPECT_EQ(result.certificate->regions, result.regions.size());
       const BruteForceCost cost(map, scan);
-      Adversary adversary(map, result, cost, random);
+      CertificateAdversary adversary(map, result, cost, random);
       adversary.search(300, 6, 60);
       adversary.climb(scan.beamFrameFromRobot(truth), 60);
       for (const Hypothesis& hypothesis : result.hypotheses) {
@@ -189,7 +189,7 @@ TEST(Certificate, HoldsForThePolarMetric) {
       if (result.status == LocalizationStatus::too_few_beams) continue;
       ASSERT_TRUE(result.certificate && result.certificate->is_complete);
       const BruteForceCost cost(map, scan, SearchMetric::polar);
-      Adversary adversary(map, result, cost, random);
+      CertificateAdversary adversary(map, result, cost, random);
       adversary.search(200, 6, 60);
       adversary.climb(scan.beamFrameFromRobot(truth), 60);
       EXPECT_EQ(adversary.tally.outside, 0U)
@@ -211,7 +211,7 @@ TEST(Certificate, CoversThePoseOfTheScanAndLeavesOutMostOfTheMap) {
     ASSERT_TRUE(result.certificate);
     // A scan without noise costs nothing where it was taken.
     EXPECT_TRUE(std::any_of(result.regions.begin(), result.regions.end(),
-                            [&](const PoseRegion& region) { return holds(region, truth); }));
+                            [&](const PoseRegion& region) { return regionHolds(region, truth); }));
     ASSERT_FALSE(result.hypotheses.empty());
     const TPose2D& first = result.hypotheses.front().pose_map_robot;
     EXPECT_LT(distanceBetween(first, truth), 1e-3);
@@ -238,7 +238,7 @@ TEST(Certificate, HoldsUnderAPrior) {
     ASSERT_TRUE(free.certificate && bound.certificate);
     EXPECT_LT(bound.statistics.evaluated, free.statistics.evaluated);
     const BruteForceCost cost(map, scan);
-    Adversary adversary(map, bound, cost, random);
+    CertificateAdversary adversary(map, bound, cost, random);
     for (int k = 0; k < 400; ++k) {
       std::uniform_real_distribution<double> unit(-1.0, 1.0);
       adversary.attempt({truth.x + 0.02 * unit(random), truth.y + 0.02 * unit(random),
@@ -295,7 +295,7 @@ TEST(Certificate, AtAnyBudgetHoldsThePoseOfAScanWithoutNoise) {
       if (!result.certificate) continue;
       ++certified;
       EXPECT_TRUE(std::any_of(result.regions.begin(), result.regions.end(),
-                              [&](const PoseRegion& region) { return holds(region, truth); }))
+                              [&](const PoseRegion& region) { return regionHolds(region, truth); }))
           << nodes << " nodes";
     }
   }
@@ -329,7 +329,7 @@ TEST(Certificate, HoldsForBeamsThatUseUpTheAngularSlack) {
       ASSERT_TRUE(result.certificate);
       EXPECT_TRUE(std::any_of(result.regions.begin(), result.regions.end(),
                               [&](const PoseRegion& region) {
-                                return holds(region, {p.x, p.y, heading});
+                                return regionHolds(region, {p.x, p.y, heading});
                               }))
           << p.x << " " << p.y << " " << heading;
     }
@@ -349,7 +349,7 @@ TEST(Certificate, HoldsBeyondTheGreatestRange) {
   const LocalizationResult result = localizer.localize(scan, {}, withRegions());
   ASSERT_TRUE(result.certificate);
   EXPECT_TRUE(std::any_of(result.regions.begin(), result.regions.end(),
-                          [&](const PoseRegion& region) { return holds(region, truth); }));
+                          [&](const PoseRegion& region) { return regionHolds(region, truth); }));
 }
 
 TEST(Certificate, HoldsWithANearHorizon) {
@@ -376,7 +376,7 @@ TEST(Certificate, HoldsWithANearHorizon) {
       if (result.status == LocalizationStatus::too_few_beams) continue;
       ASSERT_TRUE(result.certificate);
       const BruteForceCost cost(map, scan, SearchMetric::robust, params.horizon);
-      Adversary adversary(map, result, cost, random);
+      CertificateAdversary adversary(map, result, cost, random);
       adversary.search(300, 6, 60);
       adversary.climb(scan.beamFrameFromRobot(truth), 60);
       EXPECT_EQ(adversary.tally.outside, 0U)
@@ -404,7 +404,7 @@ TEST(Certificate, SaysHowFarABudgetReached) {
   EXPECT_LT(cut.certificate->cost, complete.certificate->cost);
   EXPECT_LT(cut.statistics.evaluated, complete.statistics.evaluated);
   const BruteForceCost cost(map, scan);
-  Adversary adversary(map, cut, cost, random);
+  CertificateAdversary adversary(map, cut, cost, random);
   adversary.search(200, 6, 60);
   EXPECT_EQ(adversary.tally.outside, 0U) << adversary.tally.worst;
 }

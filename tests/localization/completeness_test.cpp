@@ -27,24 +27,24 @@ namespace {
 using mrpt::math::TPose2D;
 
 /// Cheaper by less counts as equal [m]: a descent ends within this of an optimum.
-constexpr double kTolerance = 0.003;
+constexpr double kEqualCost = 0.003;
 /// A pose this near to a hypothesis is listed: the cost has dents within a basin.
 constexpr double kNear = 0.3, kNearHeading = 0.105;  // [m], [rad]
 
 /// What was tried against the answers.
-struct Tally {
+struct AttackTally {
   std::size_t scans = 0, poses = 0, undecided = 0, missing = 0, unique_missing = 0;
   double worst = 0.0;  ///< by how much a missing pose was cheaper [m]
 };
 
 /// Starts all over free space and beside what is listed; from the best of them down, step by step.
-class Adversary {
+class ListAdversary {
  public:
-  Adversary(const PolygonMap& map, std::uint32_t seed)
+  ListAdversary(const PolygonMap& map, std::uint32_t seed)
       : map_(map), triangulation_(map), predictor_(triangulation_), random_(seed) {}
 
   void attack(const RangeScan& scan, const LocalizationResult& result, std::size_t poses,
-              Tally& tally) {
+              AttackTally& tally) {
     const RobustCostParams params = GlobalLocalizerParams{}.search_cost;
     const RangeScan searched(BandQuery(scan, params).beams, scan.sensor());
     const ScanCost cost(predictor_, searched, params);
@@ -90,9 +90,9 @@ class Adversary {
       EXPECT_NE(result.status, LocalizationStatus::unique);
       return;
     }
-    if (best.cost > least - kTolerance) return;
+    if (best.cost > least - kEqualCost) return;
     // Not by the predictor's word alone.
-    if (BruteForceCost(map_, scan)(best.pose) > least - kTolerance) return;
+    if (BruteForceCost(map_, scan)(best.pose) > least - kEqualCost) return;
     ++tally.missing;
     tally.unique_missing += result.status == LocalizationStatus::unique ? 1 : 0;
     tally.worst = std::max(tally.worst, least - best.cost);
@@ -151,7 +151,7 @@ SearchOptions everything() {
   return options;
 }
 
-void expectTheLaw(const Tally& tally) {
+void expectTheLaw(const AttackTally& tally) {
   std::cout << tally.scans << " scans, " << tally.poses << " poses tried, " << tally.missing
             << " cheaper ones missing, " << tally.undecided << " scans undecided\n";
   EXPECT_EQ(tally.missing, 0U) << "by " << tally.worst << " m";
@@ -162,9 +162,9 @@ void expectTheLaw(const Tally& tally) {
 
 /// Scans of random poses in one map.
 void attackMap(const PolygonMap& map, std::size_t scans, std::size_t poses, ScanOptions options,
-               std::uint32_t seed, Tally& tally) {
+               std::uint32_t seed, AttackTally& tally) {
   const GlobalLocalizer localizer(map);
-  Adversary adversary(map, seed);
+  ListAdversary adversary(map, seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> angle(-kPi, kPi);
   for (const TPoint2D& p : randomFreePoints(map, scans, random)) {
@@ -203,7 +203,7 @@ PolygonMap rackHall(std::uint32_t seed) {
 }
 
 TEST(Completeness, OfTheRackHallThatLostTheTruth) {
-  Tally tally;
+  AttackTally tally;
   const PolygonMap map =
       loadMap(std::string(POLYLOC_SOURCE_DIR) + "/tests/localization/cases/racks.wkt").map;
   attackMap(map, 12, 2000, noisy(), 3, tally);
@@ -211,7 +211,7 @@ TEST(Completeness, OfTheRackHallThatLostTheTruth) {
 }
 
 TEST(Completeness, OfRackHalls) {
-  Tally tally;
+  AttackTally tally;
   for (std::uint32_t seed = 0; seed < 3; ++seed) {
     attackMap(rackHall(seed), 4, 2000, noisy(20.0, seed == 2 ? 0.2 : 0.0), seed, tally);
   }
@@ -219,20 +219,20 @@ TEST(Completeness, OfRackHalls) {
 }
 
 TEST(Completeness, OfRowsOfEqualRooms) {
-  Tally tally;
+  AttackTally tally;
   attackMap(combMap(10), 8, 2000, noisy(), 5, tally);
   expectTheLaw(tally);
 }
 
 TEST(Completeness, OfACorridor) {
-  Tally tally;
+  AttackTally tally;
   attackMap(mapOf(rectangle(0, 0, 30, 2), {rectangle(11, 0.5, 11.4, 0.9)}), 6, 2000, noisy(8.0), 6,
             tally);
   expectTheLaw(tally);
 }
 
 TEST(Completeness, OfRandomMaps) {
-  Tally tally;
+  AttackTally tally;
   std::mt19937 random(7);
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
     const PolygonMap map = floorPlan(randomParams(random), seed);
@@ -247,8 +247,8 @@ TEST(Completeness, OfARealMap) {
   const PolygonMap map = loadMap(folder + "/map.yaml").map;
   const std::vector<RangeScan> scans = loadScans(folder + "/scans.rawlog");
   const GlobalLocalizer localizer(map);
-  Adversary adversary(map, 8);
-  Tally tally;
+  ListAdversary adversary(map, 8);
+  AttackTally tally;
   for (std::size_t row = 10; row < scans.size(); row += 40) {
     const LocalizationResult result = localizer.localize(scans[row], {}, everything());
     if (!result.hypotheses.empty()) adversary.attack(scans[row], result, scaled(3000), tally);

@@ -1,4 +1,5 @@
 #include "tests/support/simulated_scans.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/mrpt_bridge/FilterRecovery.h>
@@ -44,10 +45,10 @@ class FilterRecoveryTest : public testing::Test {
                                    std::size_t beams = 180) const {
     test::ScanOptions options;
     options.beams = beams;
-    options.field_of_view = 2 * test::kPi;
+    options.field_of_view = kTwoPi;
     options.sigma = 0.02;
     options.seed = seed;
-    const double aperture = 2 * test::kPi * (1.0 - 1.0 / static_cast<double>(beams));
+    const double aperture = kTwoPi * (1.0 - 1.0 / static_cast<double>(beams));
     return toObservation(test::simulatedScan(map_, pose, options), aperture, 0.0, 80.0);
   }
   /// Along the lower wall of the room and back.
@@ -149,7 +150,7 @@ class AmbiguousRecoveryTest : public FilterRecoveryTest {
     options.beams = 180;
     options.sigma = 0.01;
     options.seed = 3;
-    const double aperture = 2 * test::kPi * (1.0 - 1.0 / 180.0);
+    const double aperture = kTwoPi * (1.0 - 1.0 / 180.0);
     scan_ = toObservation(test::simulatedScan(box_, {2.0, 1.5, 0.3}, options), aperture, 0.0, 80.0);
   }
   /// How many bad steps it takes until hypotheses are mixed in; 0 if they never are.

@@ -1,3 +1,4 @@
+#include "tests/support/constants.h"
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/polar/PolarFunction.h>
@@ -5,13 +6,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <tests/support/star_polygons.h>
 
 namespace mrpt_polyloc {
 namespace {
 
 using mrpt::math::TPoint2D;
+using test::kInfinity;
+using test::kNaN;
 using test::polygonArea;
 using test::randomStarPolygon;
 using test::rayToBorder;
@@ -20,8 +22,6 @@ using test::turnedPolygon;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Kind = PolarFunction::PieceKind;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 PolarFunction functionOf(const StarPolygon& polygon) {
   return PolarFunction::fromPolygon(polygon.vertices, polygon.kernel);
@@ -153,8 +153,7 @@ TEST(PolarFunctionTest, ClipsToARange) {
   const auto disk = PolarFunction::fromPolygon(kSquare, {1, 1}, 0.5);
   EXPECT_NEAR(disk.area(), kPi / 4, 1e-13);
   EXPECT_DOUBLE_EQ(disk.minimum(), 0.5);
-  const auto whole =
-      PolarFunction::fromPolygon(kSquare, {1, 1}, std::numeric_limits<double>::infinity());
+  const auto whole = PolarFunction::fromPolygon(kSquare, {1, 1}, kInfinity);
   EXPECT_NEAR(whole.area(), 4.0, 1e-13);
 }
 
@@ -321,8 +320,7 @@ TEST(PolarFunctionTest, RefusesWrongBeams) {
   EXPECT_THAT(errorOf({1, 2}, {1}), HasSubstr("2 bearings but 1 ranges"));
   EXPECT_THAT(errorOf({1, kNaN}, {1, 1}), HasSubstr("bearing of beam 1"));
   EXPECT_THAT(errorOf({1, 2}, {0, 1}), HasSubstr("range of beam 0"));
-  EXPECT_THAT(errorOf({1, 2}, {1, std::numeric_limits<double>::infinity()}),
-              HasSubstr("range of beam 1"));
+  EXPECT_THAT(errorOf({1, 2}, {1, kInfinity}), HasSubstr("range of beam 1"));
   EXPECT_THAT(errorOf({1, 1, 1}, {1, 2, 3}), HasSubstr("same bearing"));
   EXPECT_THAT(errorOf({1, 2}, {1, 2}, 0.0), HasSubstr("max_gap"));
 }

@@ -1,3 +1,5 @@
+#include "tests/support/constants.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
 
@@ -10,7 +12,8 @@
 namespace mrpt_polyloc {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+using test::kNaNF;
+
 constexpr std::size_t kSizes[] = {2, 4, 6, 10, 16, 30, 90, 360, 512, 720};
 
 SampledPolarFunction randomView(std::mt19937& random, std::size_t k, double invalid = 0.0) {
@@ -20,14 +23,14 @@ SampledPolarFunction randomView(std::mt19937& random, std::size_t k, double inva
           .samples();
   std::bernoulli_distribution drop(invalid);
   for (std::size_t i = 1; i < k; ++i)
-    if (drop(random)) samples[i] = kNaN;
+    if (drop(random)) samples[i] = kNaNF;
   return SampledPolarFunction(samples);
 }
 
 SampledPolarFunction shifted(const SampledPolarFunction& f, std::size_t s) {
   std::vector<float> samples(f.size());
   for (std::size_t i = 0; i < f.size(); ++i)
-    samples[(i + s) % f.size()] = f.isValid(i) ? f.samples()[i] : kNaN;
+    samples[(i + s) % f.size()] = f.isValid(i) ? f.samples()[i] : kNaNF;
   return SampledPolarFunction(samples);
 }
 
@@ -42,10 +45,6 @@ double directDistance(const SampledPolarFunction& f, const SampledPolarFunction&
     sum += e * e;
   }
   return std::sqrt(kTwoPi / static_cast<double>(k) * sum);
-}
-
-double angleBetween(double a, double b) {
-  return std::abs(std::remainder(a - b, kTwoPi));
 }
 
 /// The best of the rotations that a range holds, by trying them all.
@@ -99,7 +98,7 @@ TEST(PolarMetricTest, PartialViewsAreComparedWhereTheySee) {
 }
 
 TEST(PolarMetricTest, TwoPartialViews) {
-  const SampledPolarFunction f({1, 2, kNaN, 4}), g({2, kNaN, 3, 6}), h({kNaN, kNaN, 1, kNaN});
+  const SampledPolarFunction f({1, 2, kNaNF, 4}), g({2, kNaNF, 3, 6}), h({kNaNF, kNaNF, 1, kNaNF});
   EXPECT_NEAR(distance(f, g), std::sqrt(kPi / 2 * (1 + 4)), 1e-12);
   EXPECT_THROW(distance(f, h), InvalidParamsError);
   EXPECT_THROW(distanceOverRotations(f, g), InvalidParamsError);

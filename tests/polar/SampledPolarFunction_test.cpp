@@ -1,3 +1,4 @@
+#include "tests/support/constants.h"
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/polar/SampledPolarFunction.h>
@@ -12,7 +13,7 @@
 namespace mrpt_polyloc {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+using test::kNaNF;
 
 TEST(CirclePlanTest, TakesEvenFiveSmoothNumbersOnly) {
   for (const std::size_t k : {2U, 4U, 6U, 8U, 10U, 12U, 360U, 512U, 720U, 1U << 20})
@@ -121,8 +122,8 @@ TEST(SampledPolarFunctionTest, RefusesWrongSamples) {
   EXPECT_THROW(SampledPolarFunction(std::vector<float>(14, 1.0F)), InvalidParamsError);
   EXPECT_THROW(SampledPolarFunction({1.0F, infinity}), InvalidParamsError);
   EXPECT_THROW(SampledPolarFunction({-1.0F, 1.0F}), InvalidParamsError);
-  EXPECT_THROW(SampledPolarFunction({kNaN, kNaN}), InvalidParamsError);
-  EXPECT_EQ(SampledPolarFunction({kNaN, 1.0F}).validCount(), 1U);
+  EXPECT_THROW(SampledPolarFunction({kNaNF, kNaNF}), InvalidParamsError);
+  EXPECT_EQ(SampledPolarFunction({kNaNF, 1.0F}).validCount(), 1U);
 }
 
 }  // namespace

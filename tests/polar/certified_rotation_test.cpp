@@ -2,6 +2,7 @@
 
 #include "tests/support/exact_polar_metric.h"
 #include "tests/support/feature_distance.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/polar/FourierBound.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
@@ -16,10 +17,6 @@ namespace {
 
 using test::randomPolarFunction;
 using test::randomView;
-
-double angleBetween(double a, double b) {
-  return std::abs(std::remainder(a - b, kTwoPi));
-}
 
 /// The least of n distances over a range of rotations: never below the minimum.
 double leastOf(const PolarFunction& f, const PolarFunction& g, const RotationRange& range, int n) {

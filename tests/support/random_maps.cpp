@@ -1,6 +1,7 @@
 #include "random_maps.h"
 
 #include "rectangle_canvas.h"
+#include <mrpt_polyloc/base/angles.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,6 @@
 
 namespace mrpt_polyloc::test {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// To a lattice of 5 cm, so that things touch exactly or keep a distance.
 double snap(double value) {

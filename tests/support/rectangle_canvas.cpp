@@ -13,9 +13,9 @@ namespace {
 using Corner = std::pair<int, int>;  // column and row of a grid line crossing
 
 // Directions in counterclockwise order: east, north, west, south.
-constexpr std::array<Corner, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+constexpr std::array<Corner, 4> kDirections{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 
-bool holds(const std::vector<TPoint2D>& ring, const TPoint2D& p) {
+bool isInside(const std::vector<TPoint2D>& ring, const TPoint2D& p) {
   bool inside = false;
   for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
     const TPoint2D &a = ring[i], &b = ring[j];
@@ -107,7 +107,7 @@ std::vector<FreePolygon> RectangleCanvas::freeSpace() const {
       const std::array<Corner, 4> starts{
           {{column, row}, {column + 1, row}, {column + 1, row + 1}, {column, row + 1}}};
       for (int side = 0; side < 4; ++side) {
-        const Corner& across = kSteps[static_cast<std::size_t>((side + 3) % 4)];
+        const Corner& across = kDirections[static_cast<std::size_t>((side + 3) % 4)];
         const Paint beyond = cells.at(column + across.first, row + across.second);
         if (beyond == Paint::free) continue;
         edges[{starts[static_cast<std::size_t>(side)], side}] =
@@ -125,7 +125,7 @@ std::vector<FreePolygon> RectangleCanvas::freeSpace() const {
                                  cells.ys[static_cast<std::size_t>(corner.second)]);
       ring.kinds.push_back(edge->second);
       edges.erase(edge);
-      const Corner& step = kSteps[static_cast<std::size_t>(direction)];
+      const Corner& step = kDirections[static_cast<std::size_t>(direction)];
       const Corner next{corner.first + step.first, corner.second + step.second};
       edge = edges.end();
       for (const int turn : {1, 0, 3}) {  // left first: parts that touch at a corner stay apart
@@ -153,7 +153,7 @@ void addRing(std::vector<FreePolygon>& polygons, Ring ring) {
                       0.5 * (a.y + b.y) + 1e-6 * (b.x - a.x)};
   FreePolygon* owner = nullptr;
   for (FreePolygon& polygon : polygons) {
-    if (!holds(polygon.outer.vertices, free)) continue;
+    if (!isInside(polygon.outer.vertices, free)) continue;
     if (owner == nullptr ||
         signedArea(polygon.outer.vertices) < signedArea(owner->outer.vertices)) {
       owner = &polygon;

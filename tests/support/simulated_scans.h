@@ -2,6 +2,7 @@
 
 #include "tests/support/BruteForceRays.h"
 #include "tests/support/map_factories.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <cmath>
@@ -11,12 +12,10 @@
 /// Scans of known poses, by brute force.
 namespace mrpt_polyloc::test {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// What of a simulated scan is not an all-round, noise-free one of a sensor at the robot's origin.
 struct ScanOptions {
   std::size_t beams = 360;
-  double field_of_view = 2 * kPi;
+  double field_of_view = kTwoPi;
   double max_range = 80.0;
   TPoint2D sensor{0, 0};
   double sigma = 0.0;        ///< of the ranges [m]
@@ -51,7 +50,7 @@ inline double distanceBetween(const mrpt::math::TPose2D& a, const mrpt::math::TP
 }
 
 inline double turnBetween(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b) {
-  return std::abs(std::remainder(a.phi - b.phi, 2 * kPi));
+  return std::abs(std::remainder(a.phi - b.phi, kTwoPi));
 }
 
 /// A room without symmetry: every corner and wall is told from the others.

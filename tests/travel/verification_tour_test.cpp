@@ -1,3 +1,4 @@
+#include "tests/support/constants.h"
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/travel/verification_tour.h>
 
@@ -5,14 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <random>
 
 namespace mrpt_polyloc::test {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Case {
   TravelGraph graph;

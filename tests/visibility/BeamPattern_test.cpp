@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/visibility/BeamPattern.h>
 
@@ -13,8 +14,6 @@ namespace mrpt_polyloc {
 namespace {
 
 using ::testing::ElementsAre;
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Against a linear search, at random angles, at the bearings and right beside them.
 void expectFindsBeams(const BeamPattern& pattern, std::mt19937& random) {

@@ -1,5 +1,7 @@
 #include "tests/support/BruteForceRays.h"
+#include "tests/support/constants.h"
 #include "tests/support/random_maps.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 
 #include <gtest/gtest.h>
@@ -15,13 +17,11 @@ namespace {
 
 using mrpt::math::TPose2D;
 using test::BruteForceRays;
+using test::kInfinityF;
 using test::RayHit;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 /// Equal up to single precision: of the range, and of coordinates on maps of up to 100 m.
-bool close(double a, double b) {
+bool closeInFloat(double a, double b) {
   return a == b || std::abs(a - b) <= 2e-5 * std::max(a, b) + 1e-6;
 }
 
@@ -38,7 +38,7 @@ struct Comparison {
 /// Whether a value equals or lies between two neighbours of a row.
 bool liesIn(const std::vector<double>& row, double value) {
   for (std::size_t i = 0; i < row.size(); ++i) {
-    if (close(row[i], value)) return true;
+    if (closeInFloat(row[i], value)) return true;
     if (i > 0 && (row[i - 1] < value) != (row[i] < value)) return true;
   }
   return false;
@@ -51,7 +51,7 @@ void compareBeam(const BruteForceRays& rays, const TPoint2D& from, double angle,
                  float open, Comparison& comparison) {
   ++comparison.beams;
   const RayHit hit = rays.cast(from, angle);
-  if (close(wall, hit.wall) && close(open, hit.open)) return;
+  if (closeInFloat(wall, hit.wall) && closeInFloat(open, hit.open)) return;
   bool wall_explained = false, open_explained = false;
   for (const double shift : {-kShift, 0.0, kShift}) {
     std::vector<double> walls, opens;
@@ -187,7 +187,7 @@ TEST(RangePredictor, SeesNearWallsFromUnknownSpaceAndNoWallTooNear) {
         const double wall = predicted.wall[i];
         if (hit.wall < outside) {
           ++near;
-          wrong += close(wall, hit.wall) ? 0U : 1U;
+          wrong += closeInFloat(wall, hit.wall) ? 0U : 1U;
         } else {
           ++far;
           wrong += wall < outside ? 1U : 0U;
@@ -290,8 +290,8 @@ TEST(RangePredictor, SeesNothingFromOutsideTheBoxOrFromNowhere) {
                               TPose2D(2, 2, nan), TPose2D(2, 2, infinity), TPose2D(-1e300, 2, 0)}) {
     PredictedRanges predicted;
     predictor.predict(pose, beams, predicted);
-    EXPECT_EQ(predicted.wall, std::vector<float>(36, kInfinity));
-    EXPECT_EQ(predicted.open, std::vector<float>(36, kInfinity));
+    EXPECT_EQ(predicted.wall, std::vector<float>(36, kInfinityF));
+    EXPECT_EQ(predicted.open, std::vector<float>(36, kInfinityF));
   }
 }
 

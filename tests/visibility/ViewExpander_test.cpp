@@ -1,5 +1,7 @@
 #include "tests/support/BruteForceRays.h"
+#include "tests/support/constants.h"
 #include "tests/support/random_maps.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/visibility/ViewExpander.h>
 
 #include <gtest/gtest.h>
@@ -14,10 +16,8 @@ namespace mrpt_polyloc {
 namespace {
 
 using test::BruteForceRays;
+using test::kInfinity;
 using test::RayHit;
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double cross(double ax, double ay, double bx, double by) {
   return ax * by - ay * bx;
@@ -40,7 +40,7 @@ double rangeOf(const Triangulation& t, const TPoint2D& from, const std::vector<V
   return least;
 }
 
-bool close(double a, double b) {
+bool closeInDouble(double a, double b) {
   return a == b || std::abs(a - b) < 1e-7 * (1 + b);
 }
 
@@ -54,11 +54,12 @@ std::size_t differences(const Triangulation& t, const BruteForceRays& rays, cons
     const RayHit hit = rays.cast(view.viewpoint, angle);
     const double wall = rangeOf(t, view.viewpoint, view.ends, true, angle);
     const double open = rangeOf(t, view.viewpoint, view.open, false, angle);
-    if (close(wall, hit.wall) && close(open, hit.open)) continue;
+    if (closeInDouble(wall, hit.wall) && closeInDouble(open, hit.open)) continue;
     const RayHit right = rays.cast(view.viewpoint, angle - 1e-7);
     const RayHit left = rays.cast(view.viewpoint, angle + 1e-7);
-    const bool grazes = !close(right.wall, left.wall) || !close(right.open, left.open) ||
-                        !close(hit.wall, left.wall);
+    const bool grazes = !closeInDouble(right.wall, left.wall) ||
+                        !closeInDouble(right.open, left.open) ||
+                        !closeInDouble(hit.wall, left.wall);
     count += grazes ? 0 : 1;
   }
   return count;

@@ -1,4 +1,5 @@
 #include "tests/support/map_factories.h"
+#include "tests/support/polygon_width.h"
 #include "tests/support/random_maps.h"
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/geometry/orientation.h>
@@ -20,6 +21,8 @@
 namespace mrpt_polyloc {
 namespace {
 
+using test::widthOf;
+
 /// The pieces of edges seen from a point, each with the vertices that limit it.
 using Seen = std::set<std::array<std::int32_t, 4>>;
 
@@ -37,16 +40,6 @@ std::set<std::int32_t> verticesOf(const Seen& seen) {
   return vertices;
 }
 
-/// Twice the area over the perimeter: about the width, of a thin cell too.
-double widthOf(const std::vector<TPoint2D>& polygon) {
-  double perimeter = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const TPoint2D d = polygon[(i + 1) % polygon.size()] - polygon[i];
-    perimeter += std::hypot(d.x, d.y);
-  }
-  return 2.0 * signedArea(polygon) / perimeter;
-}
-
 /// An inner point, by random weights of the vertices that leave out none.
 TPoint2D randomInside(const std::vector<TPoint2D>& polygon, std::mt19937& random) {
   std::uniform_real_distribution<double> weight(0.1, 1.0);
@@ -61,7 +54,7 @@ TPoint2D randomInside(const std::vector<TPoint2D>& polygon, std::mt19937& random
 }
 
 /// Maps in line with themselves: rooms on a grid, parallel walls, vertices on straight walls.
-std::vector<std::pair<std::string, PolygonMap>> maps() {
+std::vector<std::pair<std::string, PolygonMap>> alignedMaps() {
   std::vector<std::pair<std::string, PolygonMap>> all;
   for (auto& [name, map] : test::namedMaps()) all.emplace_back(name, map);
   all.emplace_back("open edges", test::withOpenEdges(test::pillarMap(), 0.3, 5));
@@ -83,7 +76,7 @@ std::vector<std::pair<std::string, PolygonMap>> maps() {
 constexpr double kThin = 1e-11;
 
 TEST(VisibilityCells, AreConvexAndFillFreeSpace) {
-  for (const auto& [name, map] : maps()) {
+  for (const auto& [name, map] : alignedMaps()) {
     SCOPED_TRACE(name);
     for (const double range : {kUnlimitedRange, 2.5}) {
       const VisibilityCells cells(map, {1'000'000, range});
@@ -105,7 +98,7 @@ TEST(VisibilityCells, AreConvexAndFillFreeSpace) {
 
 TEST(VisibilityCells, SeeTheSameThroughout) {
   std::mt19937 random(72);
-  for (const auto& [name, map] : maps()) {
+  for (const auto& [name, map] : alignedMaps()) {
     SCOPED_TRACE(name);
     const VisibilityCells cells(map);
     ViewExpander expander(cells.triangulation(), true);
@@ -121,7 +114,7 @@ TEST(VisibilityCells, SeeTheSameThroughout) {
 
 TEST(VisibilityCells, DifferFromTheirNeighborsByWhatIsSaid) {
   std::mt19937 random(73);
-  for (const auto& [name, map] : maps()) {
+  for (const auto& [name, map] : alignedMaps()) {
     SCOPED_TRACE(name);
     const VisibilityCells cells(map);
     ViewExpander expander(cells.triangulation(), true);
@@ -154,7 +147,7 @@ TEST(VisibilityCells, DifferFromTheirNeighborsByWhatIsSaid) {
 }
 
 TEST(VisibilityCells, AreNeighborsOfTheirNeighbors) {
-  for (const auto& [name, map] : maps()) {
+  for (const auto& [name, map] : alignedMaps()) {
     SCOPED_TRACE(name);
     const VisibilityCells cells(map);
     std::multiset<std::pair<std::int32_t, std::int32_t>> links;
@@ -172,7 +165,7 @@ TEST(VisibilityCells, AreNeighborsOfTheirNeighbors) {
 
 TEST(VisibilityCells, AreFoundAsByBruteForce) {
   std::mt19937 random(74);
-  for (const auto& [name, map] : maps()) {
+  for (const auto& [name, map] : alignedMaps()) {
     SCOPED_TRACE(name);
     const VisibilityCells cells(map);
     const auto holds = [&](std::size_t c, const TPoint2D& p) {
@@ -257,7 +250,7 @@ TEST(VisibilityCells, HaveTiedPointsWhereThreeCriticalLinesMeet) {
 TEST(VisibilityCells, WithALimitTellTheVerticesWithinItApart) {
   std::mt19937 random(75);
   constexpr double kRange = 2.5;
-  for (const auto& [name, map] : maps()) {
+  for (const auto& [name, map] : alignedMaps()) {
     SCOPED_TRACE(name);
     const VisibilityCells cells(map, {1'000'000, kRange});
     ViewExpander expander(cells.triangulation(), true);
@@ -315,7 +308,7 @@ TEST(VisibilityCells, FitTheirBudgetInTheGreatestRange) {
 }
 
 TEST(VisibilityCells, AreNeverMoreThanEstimated) {
-  for (const auto& [name, map] : maps()) {
+  for (const auto& [name, map] : alignedMaps()) {
     SCOPED_TRACE(name);
     for (const double range : {kUnlimitedRange, 2.5, 0.7}) {
       EXPECT_GE(VisibilityCells::estimate(map, range).cells(),

@@ -1,4 +1,5 @@
 #include "tests/support/map_factories.h"
+#include "tests/support/polygon_width.h"
 #include "tests/support/random_maps.h"
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
@@ -17,19 +18,11 @@
 namespace mrpt_polyloc {
 namespace {
 
+using test::widthOf;
 using Gap = VisibilitySkeleton::Gap;
 
 constexpr double kFlat = 2e-6;
 constexpr double kSame = 1e-7;
-
-/// Twice the area over the perimeter: about the width, of a thin cell too.
-double widthOf(const std::vector<TPoint2D>& polygon) {
-  double perimeter = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    perimeter += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
-  }
-  return 2.0 * signedArea(polygon) / perimeter;
-}
 
 /// The skeleton turned by `angle`, moved, and started at another gap.
 VisibilitySkeleton moved(const VisibilitySkeleton& skeleton, double angle, const TPoint2D& by,
@@ -80,7 +73,7 @@ class Skeletons {
   ViewExpander expander_;
 };
 
-std::vector<std::pair<std::string, PolygonMap>> maps() {
+std::vector<std::pair<std::string, PolygonMap>> skeletonMaps() {
   std::vector<std::pair<std::string, PolygonMap>> all;
   for (auto& [name, map] : test::namedMaps()) all.emplace_back(name, map);
   all.emplace_back("open edges", test::withOpenEdges(test::pillarMap(), 0.3, 5));
@@ -90,7 +83,7 @@ std::vector<std::pair<std::string, PolygonMap>> maps() {
 TEST(VisibilitySkeleton, IsOneThroughoutACell) {
   std::mt19937 random(81);
   std::uniform_real_distribution<double> weight(0.1, 1.0);
-  for (const auto& [name, map] : maps()) {
+  for (const auto& [name, map] : skeletonMaps()) {
     SCOPED_TRACE(name);
     Skeletons skeletons(map);
     for (int k = 0; k < 200; ++k) {
@@ -126,7 +119,7 @@ std::set<std::pair<double, double>> flatVertices(const PolygonMap& map) {
 
 TEST(VisibilitySkeleton, DiffersAcrossCriticalSegments) {
   std::mt19937 random(82);
-  for (const auto& [name, map] : maps()) {
+  for (const auto& [name, map] : skeletonMaps()) {
     if (name == "touching holes") continue;  // walls that touch walls hide where rings bend
     SCOPED_TRACE(name);
     Skeletons skeletons(map);

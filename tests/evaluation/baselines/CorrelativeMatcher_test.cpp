@@ -1,3 +1,4 @@
+#include "room.h"
 #include <mrpt_polyloc/base/Random.h>
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
@@ -14,21 +15,17 @@
 namespace mrpt_polyloc {
 namespace {
 
-PolygonMap room() {
-  return PolygonMap(
-      {{wallRing({{0, 0}, {6, 0}, {6, 3}, {4.5, 3}, {4.5, 4}, {1, 4}, {1, 3}, {0, 3}}),
-        {wallRing({{2, 1}, {2.7, 2}, {3, 1.2}})}}});
-}
+using test::pillarRoom;
 
 std::vector<SimulatedScan> scans(std::size_t count, double short_beams) {
   SimulatorParams params;
   params.beams = 60;
   params.short_beams = short_beams;
-  return simulateScans(room(), params, count, 8);
+  return simulateScans(pillarRoom(), params, count, 8);
 }
 
 TEST(CorrelativeMatcher, LevelsAreBoundsOfAllPositionsOfTheirBlocks) {
-  const OccupancyBitmap bitmap = rasterize(room(), 0.1);
+  const OccupancyBitmap bitmap = rasterize(pillarRoom(), 0.1);
   CorrelativeMatcherParams params;
   params.levels = 4;
   const CorrelativeMatcher matcher(bitmap, params);
@@ -51,7 +48,7 @@ TEST(CorrelativeMatcher, LevelsAreBoundsOfAllPositionsOfTheirBlocks) {
 }
 
 TEST(CorrelativeMatcher, FindsTheGreatestScoreOfTheWholeLattice) {
-  const OccupancyBitmap bitmap = rasterize(room(), 0.2);
+  const OccupancyBitmap bitmap = rasterize(pillarRoom(), 0.2);
   CorrelativeMatcherParams params;
   params.levels = 3;
   const CorrelativeMatcher matcher(bitmap, params);
@@ -76,13 +73,13 @@ TEST(CorrelativeMatcher, FindsTheGreatestScoreOfTheWholeLattice) {
 }
 
 TEST(CorrelativeMatcher, TheAngularStepMovesTheFarthestHitByACell) {
-  const CorrelativeMatcher matcher(rasterize(room(), 0.05));
+  const CorrelativeMatcher matcher(rasterize(pillarRoom(), 0.05));
   const double step = matcher.angularStep({{1, 0}, {0, 5}});
   EXPECT_NEAR(2 * 5 * std::sin(step / 2), 0.05, 1e-9);
 }
 
 TEST(CorrelativeMatcher, FindsWhereScansWereTaken) {
-  const CorrelativeMatcher matcher(rasterize(room(), 0.05));
+  const CorrelativeMatcher matcher(rasterize(pillarRoom(), 0.05));
   std::size_t right = 0;
   for (const SimulatedScan& simulated : scans(10, 0.1)) {
     const auto answer = matcher.localize(toRangeScan(simulated.observation));
@@ -93,7 +90,7 @@ TEST(CorrelativeMatcher, FindsWhereScansWereTaken) {
 }
 
 TEST(CorrelativeMatcher, MapsThatAreTurnedAndSensorsThatAreOffTheRobotAreSeen) {
-  OccupancyBitmap bitmap = rasterize(room(), 0.05);
+  OccupancyBitmap bitmap = rasterize(pillarRoom(), 0.05);
   const mrpt::math::TPose2D turned(3, -2, 0.7);  // where the room's frame lies in the map's
   bitmap.pose_map_bitmap = turned + bitmap.pose_map_bitmap;
   const CorrelativeMatcher matcher(bitmap);
@@ -107,13 +104,13 @@ TEST(CorrelativeMatcher, MapsThatAreTurnedAndSensorsThatAreOffTheRobotAreSeen) {
 }
 
 TEST(CorrelativeMatcher, RefusesWhatItCannotSearch) {
-  OccupancyBitmap empty = rasterize(room(), 0.1);
+  OccupancyBitmap empty = rasterize(pillarRoom(), 0.1);
   EXPECT_FALSE(CorrelativeMatcher(empty).localize(RangeScan({})));
   for (CellState& cell : empty.cells) cell = CellState::free;
   EXPECT_THROW(CorrelativeMatcher{empty}, InvalidMapError);
   CorrelativeMatcherParams params;
   params.sigma = 0;
-  EXPECT_THROW(CorrelativeMatcher(rasterize(room(), 0.1), params), InvalidParamsError);
+  EXPECT_THROW(CorrelativeMatcher(rasterize(pillarRoom(), 0.1), params), InvalidParamsError);
 }
 
 }  // namespace

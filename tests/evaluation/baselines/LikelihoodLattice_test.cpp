@@ -1,3 +1,4 @@
+#include "room.h"
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/Simulator.h>
 #include <mrpt_polyloc/evaluation/Summary.h>
@@ -12,23 +13,19 @@
 namespace mrpt_polyloc {
 namespace {
 
-PolygonMap room() {
-  return PolygonMap(
-      {{wallRing({{0, 0}, {6, 0}, {6, 3}, {4.5, 3}, {4.5, 4}, {1, 4}, {1, 3}, {0, 3}}),
-        {wallRing({{2, 1}, {2.7, 2}, {3, 1.2}})}}});
-}
+using test::pillarRoom;
 
-std::vector<SimulatedScan> scans() {
+std::vector<SimulatedScan> eightScans() {
   SimulatorParams params;
   params.beams = 120;
   params.short_beams = 0.1;
-  return simulateScans(room(), params, 8, 5);
+  return simulateScans(pillarRoom(), params, 8, 5);
 }
 
 TEST(LikelihoodLattice, FindsWhereScansWereTakenToCentimetres) {
-  const LikelihoodLattice lattice(rasterize(room(), 0.05));
-  EXPECT_NEAR(static_cast<double>(lattice.latticePositions()), room().area() / 0.16, 20.0);
-  for (const SimulatedScan& simulated : scans()) {
+  const LikelihoodLattice lattice(rasterize(pillarRoom(), 0.05));
+  EXPECT_NEAR(static_cast<double>(lattice.latticePositions()), pillarRoom().area() / 0.16, 20.0);
+  for (const SimulatedScan& simulated : eightScans()) {
     const auto answers = lattice.localize(toRangeScan(simulated.observation));
     ASSERT_FALSE(answers.empty());
     EXPECT_TRUE(isRight(answers.front().pose_map_robot, simulated.truth.pose_map_robot,
@@ -44,8 +41,8 @@ TEST(LikelihoodLattice, FindsWhereScansWereTakenToCentimetres) {
 }
 
 TEST(LikelihoodLattice, ThreadsDoNotDisturbEachOther) {
-  const LikelihoodLattice lattice(rasterize(room(), 0.1));
-  const auto simulated = scans();
+  const LikelihoodLattice lattice(rasterize(pillarRoom(), 0.1));
+  const auto simulated = eightScans();
   std::vector<std::vector<BaselineAnswer>> alone, together(simulated.size());
   for (const auto& scan : simulated)
     alone.push_back(lattice.localize(toRangeScan(scan.observation)));
@@ -62,17 +59,17 @@ TEST(LikelihoodLattice, ThreadsDoNotDisturbEachOther) {
 }
 
 TEST(LikelihoodLattice, TurnedMapsAreSeen) {
-  OccupancyBitmap bitmap = rasterize(room(), 0.05);
+  OccupancyBitmap bitmap = rasterize(pillarRoom(), 0.05);
   const mrpt::math::TPose2D turned(3, -2, 0.7);
   bitmap.pose_map_bitmap = turned + bitmap.pose_map_bitmap;
-  const SimulatedScan simulated = scans().front();
+  const SimulatedScan simulated = eightScans().front();
   const auto answers = LikelihoodLattice(bitmap).localize(toRangeScan(simulated.observation));
   ASSERT_FALSE(answers.empty());
   EXPECT_TRUE(isRight(answers.front().pose_map_robot, turned + simulated.truth.pose_map_robot));
 }
 
 TEST(LikelihoodLattice, RefusesWhatItCannotSearch) {
-  OccupancyBitmap bitmap = rasterize(room(), 0.1);
+  OccupancyBitmap bitmap = rasterize(pillarRoom(), 0.1);
   EXPECT_TRUE(LikelihoodLattice(bitmap).localize(RangeScan({})).empty());
   LikelihoodLatticeParams params;
   params.step = -1;

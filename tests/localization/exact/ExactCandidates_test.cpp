@@ -1,6 +1,7 @@
 #include "exact_views.h"
 #include "tests/support/map_factories.h"
 #include "tests/support/random_maps.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/localization/exact/ExactCandidates.h>
 
@@ -15,9 +16,6 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kTolerance = 1e-6;
-constexpr double kPi = 3.14159265358979323846;
-
 TEST(ExactCandidates, KeepThosePosesFromWhichRaysSeeTheSame) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> angle(-3.0, 3.0);
@@ -29,7 +27,7 @@ TEST(ExactCandidates, KeepThosePosesFromWhichRaysSeeTheSame) {
     for (const TPoint2D& p : randomFreePoints(map, 6, random)) {
       const TPose2D truth{p.x, p.y, angle(random)};
       const std::vector<TPoint2D> polygon = seenFrom(map, truth);
-      const ObservedPolygon seen(polygon, kTolerance);
+      const ObservedPolygon seen(polygon, kExactTolerance);
       const PosePrior prior;
       const RayMap view(polygon);
       std::vector<TPose2D> poses = {truth, {p.x, p.y, truth.phi + kPi}};
@@ -38,7 +36,7 @@ TEST(ExactCandidates, KeepThosePosesFromWhichRaysSeeTheSame) {
       }
       poses.push_back({1e6, 1e6, 0.0});
       for (const TPose2D& pose : poses) {
-        ExactCandidates candidates(triangulation, seen, prior, kTolerance);
+        ExactCandidates candidates(triangulation, seen, prior, kExactTolerance);
         candidates.consider(pose);
         const bool is_free = map.contains({pose.x, pose.y});
         EXPECT_EQ(candidates.kept() == 1, is_free && looksAlike(rays, pose, view))
@@ -54,9 +52,9 @@ TEST(ExactCandidates, KeepThosePosesFromWhichRaysSeeTheSame) {
 TEST(ExactCandidates, KeepEachPoseOnceAndInOrder) {
   const PolygonMap map = squareMap(4.0);
   const Triangulation triangulation(map);
-  const ObservedPolygon seen(seenFrom(map, {1, 1.5, 0}), kTolerance);
+  const ObservedPolygon seen(seenFrom(map, {1, 1.5, 0}), kExactTolerance);
   const PosePrior prior;
-  ExactCandidates candidates(triangulation, seen, prior, kTolerance);
+  ExactCandidates candidates(triangulation, seen, prior, kExactTolerance);
   // The square looks the same turned by quarters about its middle.
   const std::vector<TPose2D> quarters = {
       {3, 2.5, kPi}, {2.5, 1, kPi / 2}, {1, 1.5, 0}, {1.5, 3, -kPi / 2}};
@@ -74,9 +72,9 @@ TEST(ExactCandidates, KeepEachPoseOnceAndInOrder) {
 TEST(ExactCandidates, LeaveOutWhatThePriorForbids) {
   const PolygonMap map = squareMap(4.0);
   const Triangulation triangulation(map);
-  const ObservedPolygon seen(seenFrom(map, {1, 1.5, 0}), kTolerance);
+  const ObservedPolygon seen(seenFrom(map, {1, 1.5, 0}), kExactTolerance);
   const auto count = [&](const PosePrior& prior) {
-    ExactCandidates candidates(triangulation, seen, prior, kTolerance);
+    ExactCandidates candidates(triangulation, seen, prior, kExactTolerance);
     candidates.consider({1, 1.5, 0});
     candidates.consider({3, 2.5, kPi});
     return candidates.kept();
@@ -92,7 +90,8 @@ TEST(ExactCandidates, LeaveOutWhatThePriorForbids) {
 TEST(ExactCandidates, TheAnchorIsTheLongestWallThatEndsAtAVertex) {
   // The long wall on the right is cut off by windows at both ends: no vertex of the map is seen.
   const ObservedPolygon seen(
-      {{-1, -1}, {1, -1}, {1, -0.5}, {9, -4.5}, {9, 4.5}, {1, 0.5}, {1, 1}, {-1, 1}}, kTolerance);
+      {{-1, -1}, {1, -1}, {1, -0.5}, {9, -4.5}, {9, 4.5}, {1, 0.5}, {1, 1}, {-1, 1}},
+      kExactTolerance);
   const WallAnchor anchor = longestAnchor(seen);
   EXPECT_NEAR(anchor.length, 2.0, 1e-12);
   EXPECT_LT(anchor.from.x, 1.5);

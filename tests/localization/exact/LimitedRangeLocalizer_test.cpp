@@ -29,8 +29,8 @@ double distanceToSegment(const TPoint2D& p, const TPoint2D& a, const TPoint2D& b
   return (p - a - d * share).norm();
 }
 
-bool holds(const LimitedRangeLocalizer& localizer, const LimitedAnswers& answers,
-           const TPose2D& pose, double near = 1e-4) {
+bool answersHold(const LimitedRangeLocalizer& localizer, const LimitedAnswers& answers,
+                 const TPose2D& pose, double near = 1e-4) {
   const TPoint2D p(pose.x, pose.y);
   for (const TPose2D& q : answers.points) {
     if (std::hypot(q.x - p.x, q.y - p.y) < near && angleBetween(q.phi, pose.phi) < 1e-4)
@@ -56,7 +56,7 @@ std::vector<TPose2D> samples(const LimitedAnswers& answers) {
   return all;
 }
 
-std::vector<std::pair<std::string, PolygonMap>> maps() {
+std::vector<std::pair<std::string, PolygonMap>> limitedRangeMaps() {
   std::vector<std::pair<std::string, PolygonMap>> all;
   for (auto& [name, map] : test::namedMaps()) {
     if (std::string(name) != "pillars at 1e6") all.emplace_back(name, map);
@@ -77,7 +77,7 @@ TEST(LimitedRangeLocalizer, HoldsRandomPosesAndEveryAnswerSeesTheSame) {
   std::mt19937 random(102);
   std::uniform_real_distribution<double> angle(-3, 3), log_range(std::log(0.1), std::log(8.0));
   int points = 0, segments = 0, regions = 0;
-  for (const auto& [name, map] : maps()) {
+  for (const auto& [name, map] : limitedRangeMaps()) {
     SCOPED_TRACE(name);
     const LimitedRangeLocalizer localizer(map);
     const test::RayMap rays(map);
@@ -88,9 +88,9 @@ TEST(LimitedRangeLocalizer, HoldsRandomPosesAndEveryAnswerSeesTheSame) {
                    std::to_string(range));
       const LimitedView view = limitedFrom(map, pose, range);
       const LimitedAnswers all = localizer.localize(view);
-      EXPECT_TRUE(holds(localizer, all, pose));
+      EXPECT_TRUE(answersHold(localizer, all, pose));
       const LimitedAnswers headed = localizer.localize(view, PosePrior::Compass{pose.phi, 0.0});
-      EXPECT_TRUE(holds(localizer, headed, pose));
+      EXPECT_TRUE(answersHold(localizer, headed, pose));
       for (const TPose2D& answer : samples(all)) {
         EXPECT_LE(test::countDifferent(rays, answer, rays, pose, range, 3), 2U)
             << answer.x << " " << answer.y;
@@ -130,7 +130,7 @@ TEST(LimitedRangeLocalizer, AnswersAreThoseOfBruteForceOverADenseGrid) {
       for (const TPoint2D& p : grid) {
         const TPose2D there(p.x, p.y, 0);
         const bool is_alike = test::countDifferent(rays, there, rays, pose, range, 1) == 0;
-        EXPECT_EQ(is_alike, holds(localizer, answers, there))
+        EXPECT_EQ(is_alike, answersHold(localizer, answers, there))
             << "from " << pose.x << " " << pose.y << " range " << range << " at " << p.x << " "
             << p.y;
       }
@@ -186,7 +186,7 @@ TEST(LimitedRangeLocalizer, TwoWallsThatMeetOutOfRangeArePoints) {
   const LimitedAnswers answers = localizer.localize(limitedFrom(map, pose, 2.0));
   EXPECT_EQ(answers.points.size(), 1U);
   EXPECT_TRUE(answers.segments.empty());
-  EXPECT_TRUE(holds(localizer, answers, pose));
+  EXPECT_TRUE(answersHold(localizer, answers, pose));
 }
 
 TEST(LimitedRangeLocalizer, NothingInRangeIsARegionIfThereIsRoom) {

@@ -19,8 +19,6 @@ namespace {
 using mrpt::math::TPose2D;
 using testing::HasSubstr;
 
-constexpr double kTolerance = 1e-6;
-
 /// Distance of a point from a segment [m].
 double distanceTo(const TPoint2D& p, const TPoint2D& a, const TPoint2D& b) {
   const TPoint2D d = b - a;
@@ -64,7 +62,7 @@ TEST(ObservedPolygon, ItsWallsAreTheMapsAndItsWindowsAreNot) {
     for (const TPoint2D& p : randomFreePoints(map, 20, random)) {
       const TPose2D pose{p.x, p.y, angle(random)};
       const std::vector<TPoint2D> polygon = seenFrom(map, pose);
-      const ObservedPolygon seen(polygon, kTolerance);
+      const ObservedPolygon seen(polygon, kExactTolerance);
       const double c = std::cos(pose.phi), s = std::sin(pose.phi);
       const auto inMap = [&](const TPoint2D& q) {
         return TPoint2D(pose.x + c * q.x - s * q.y, pose.y + s * q.x + c * q.y);
@@ -100,7 +98,8 @@ TEST(ObservedPolygon, ItsWallsAreTheMapsAndItsWindowsAreNot) {
 TEST(ObservedPolygon, TellsWindowsFromWallsInASmallCase) {
   // A room of 2 m by 2 m, and on the right a view into a corridor through a door in the ray's way.
   const ObservedPolygon seen(
-      {{-1, -1}, {1, -1}, {1, -0.5}, {3, -1.5}, {3, 1.5}, {1, 0.5}, {1, 1}, {-1, 1}}, kTolerance);
+      {{-1, -1}, {1, -1}, {1, -0.5}, {3, -1.5}, {3, 1.5}, {1, 0.5}, {1, 1}, {-1, 1}},
+      kExactTolerance);
   EXPECT_EQ(seen.walls().size(), 6U);  // two of the eight edges are windows
   EXPECT_TRUE(seen.isClear());
   EXPECT_NEAR(seen.radius(), std::hypot(3.0, 1.5), 1e-12);
@@ -116,14 +115,14 @@ TEST(ObservedPolygon, TellsWindowsFromWallsInASmallCase) {
   EXPECT_FALSE(
       ObservedPolygon(
           {{-1, -1}, {1, -1}, {1, -0.5}, {3, -1.5 + 2e-6}, {3, 1.5}, {1, 0.5}, {1, 1}, {-1, 1}},
-          kTolerance)
+          kExactTolerance)
           .isClear());
 }
 
 TEST(ObservedPolygon, DropsVerticesThatSayNothing) {
-  const ObservedPolygon plain({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, kTolerance);
+  const ObservedPolygon plain({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, kExactTolerance);
   const ObservedPolygon cut(
-      {{-1, -1}, {0, -1}, {0.5, -1}, {1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, 0}}, kTolerance);
+      {{-1, -1}, {0, -1}, {0.5, -1}, {1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, 0}}, kExactTolerance);
   EXPECT_EQ(cut.walls().size(), plain.walls().size());
   EXPECT_TRUE(agree(plain, cut, 1e-6));
 }
@@ -133,12 +132,13 @@ TEST(ObservedPolygon, AgreesWithItselfMovedByLessThanTheLimit) {
   const PolygonMap map = floorPlan(randomParams(random), 3);
   std::size_t apart = 0, tried = 0;
   for (const TPoint2D& p : randomFreePoints(map, 30, random)) {
-    const ObservedPolygon here(seenFrom(map, {p.x, p.y, 0}), kTolerance);
-    const ObservedPolygon turned(seenFrom(map, {p.x, p.y, 1e-8}), kTolerance);
+    const ObservedPolygon here(seenFrom(map, {p.x, p.y, 0}), kExactTolerance);
+    const ObservedPolygon turned(seenFrom(map, {p.x, p.y, 1e-8}), kExactTolerance);
     EXPECT_TRUE(agree(here, turned, 1e-5));
     if (!map.contains({p.x + 0.05, p.y})) continue;
     ++tried;
-    apart += !agree(here, ObservedPolygon(seenFrom(map, {p.x + 0.05, p.y, 0}), kTolerance), 1e-5);
+    apart +=
+        !agree(here, ObservedPolygon(seenFrom(map, {p.x + 0.05, p.y, 0}), kExactTolerance), 1e-5);
   }
   EXPECT_EQ(apart, tried);
   EXPECT_GT(tried, 10U);
@@ -146,7 +146,7 @@ TEST(ObservedPolygon, AgreesWithItselfMovedByLessThanTheLimit) {
 
 TEST(ObservedPolygon, RefusesWhatIsNotSeenFromTheOrigin) {
   const auto complaint = [](const std::vector<TPoint2D>& vertices) {
-    return messageOf<InvalidParamsError>([&] { ObservedPolygon(vertices, kTolerance); });
+    return messageOf<InvalidParamsError>([&] { ObservedPolygon(vertices, kExactTolerance); });
   };
   EXPECT_THAT(complaint({{1, 1}, {3, 1}, {3, 3}, {1, 3}}), testing::Not(testing::IsEmpty()));
   EXPECT_THAT(complaint({{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}), HasSubstr("counterclockwise"));

@@ -1,5 +1,6 @@
 #include "exact_views.h"
 #include "tests/support/map_factories.h"
+#include "tests/support/polygon_width.h"
 #include "tests/support/random_maps.h"
 #include <mrpt_polyloc/localization/exact/ObservedPolygon.h>
 #include <mrpt_polyloc/localization/exact/SkeletonClasses.h>
@@ -16,8 +17,8 @@ namespace mrpt_polyloc {
 namespace {
 
 using mrpt::math::TPose2D;
-
-constexpr double kTolerance = 1e-6;
+using test::kExactTolerance;
+using test::widthOf;
 
 TPoint2D moved(const TPose2D& motion, const TPoint2D& p) {
   const double c = std::cos(motion.phi), s = std::sin(motion.phi);
@@ -31,26 +32,18 @@ std::vector<SkeletonClasses::Embedding> embeddingsOf(const SkeletonClasses& clas
   return all;
 }
 
-double widthOf(const std::vector<TPoint2D>& polygon) {
-  double perimeter = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    perimeter += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
-  }
-  return 2.0 * signedArea(polygon) / perimeter;
-}
-
 TEST(SkeletonClasses, HoldEveryCellOnce) {
   for (const auto& [name, map] : test::namedMaps()) {
     SCOPED_TRACE(name);
     const VisibilityCells cells(map);
-    const SkeletonClasses classes(cells, kTolerance);
+    const SkeletonClasses classes(cells, kExactTolerance);
     std::multiset<std::int32_t> held;
     for (std::size_t k = 0; k < classes.size(); ++k) {
       EXPECT_FALSE(embeddingsOf(classes, k).empty());
       for (const auto& embedding : embeddingsOf(classes, k)) held.insert(embedding.cell);
     }
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      if (widthOf(cells.polygon(c)) < kTolerance) continue;
+      if (widthOf(cells.polygon(c)) < kExactTolerance) continue;
       EXPECT_EQ(held.count(static_cast<std::int32_t>(c)), 1U) << "cell " << c;
     }
   }
@@ -60,14 +53,14 @@ TEST(SkeletonClasses, CarryTheirSkeletonToEachOfTheirCells) {
   for (const auto& [name, map] : test::namedMaps()) {
     SCOPED_TRACE(name);
     const VisibilityCells cells(map);
-    const SkeletonClasses classes(cells, kTolerance);
+    const SkeletonClasses classes(cells, kExactTolerance);
     ViewExpander expander(cells.triangulation(), true);
     for (std::size_t k = 0; k < classes.size(); ++k) {
       const VisibilitySkeleton skeleton = classes.skeleton(k, expander);
       for (const auto& embedding : embeddingsOf(classes, k)) {
         if (embedding.cell == VisibilityCells::kNone) continue;
         const auto cell = static_cast<std::size_t>(embedding.cell);
-        const VisibilitySkeleton there = skeletonOf(cells, cell, expander, 2 * kTolerance);
+        const VisibilitySkeleton there = skeletonOf(cells, cell, expander, 2 * kExactTolerance);
         for (const auto& gap : skeleton.gaps()) {
           const TPoint2D p = moved(embedding.pose_map_skeleton, gap.vertex);
           double nearest = 1.0;
@@ -111,7 +104,7 @@ TEST(SkeletonClasses, AreEqualWhereViewsAreAndOnlyThere) {
                                                        {"windmill", test::windmillMap()}}) {
     SCOPED_TRACE(name);
     const VisibilityCells cells(map);
-    const SkeletonClasses classes(cells, kTolerance);
+    const SkeletonClasses classes(cells, kExactTolerance);
     const test::RayMap rays(map);
     for (std::size_t k = 0; k < classes.size(); ++k) {
       const auto members = embeddingsOf(classes, k);
@@ -158,11 +151,11 @@ TEST(SkeletonClasses, FindTheCellThatAPolygonWasSeenFrom) {
   for (const auto& [name, map] : test::namedMaps()) {
     SCOPED_TRACE(name);
     const VisibilityCells cells(map);
-    const SkeletonClasses classes(cells, kTolerance);
+    const SkeletonClasses classes(cells, kExactTolerance);
     ViewExpander expander(cells.triangulation(), true);
     for (const TPoint2D& p : test::randomFreePoints(map, 40, random)) {
       const TPose2D pose(p.x, p.y, 0.7);
-      const ObservedPolygon seen(test::seenFrom(map, pose), kTolerance);
+      const ObservedPolygon seen(test::seenFrom(map, pose), kExactTolerance);
       if (!seen.isClear()) continue;  // where the query does not ask the classes
       const std::int32_t cell = cells.locate(p);
       bool is_found = false;
@@ -180,14 +173,14 @@ TEST(SkeletonClasses, MissNothingAtTheBordersOfLookUp) {
   // Vertices moved by up to the tolerance, again and again: the look-up finds the class each time.
   const PolygonMap map = test::pillarMap();
   const VisibilityCells cells(map);
-  const SkeletonClasses classes(cells, kTolerance);
+  const SkeletonClasses classes(cells, kExactTolerance);
   ViewExpander expander(cells.triangulation(), true);
   std::mt19937 random(97);
-  std::uniform_real_distribution<double> noise(-0.7 * kTolerance, 0.7 * kTolerance);
+  std::uniform_real_distribution<double> noise(-0.7 * kExactTolerance, 0.7 * kExactTolerance);
   for (int k = 0; k < 500; ++k) {
     const std::size_t cell = random() % cells.size();
     std::vector<VisibilitySkeleton::Gap> gaps =
-        skeletonOf(cells, cell, expander, 2 * kTolerance).gaps();
+        skeletonOf(cells, cell, expander, 2 * kExactTolerance).gaps();
     for (auto& gap : gaps) {
       gap.vertex = gap.vertex + TPoint2D(noise(random), noise(random));
       gap.a = gap.a + TPoint2D(noise(random), noise(random));

@@ -23,7 +23,7 @@ using test::looksAlike;
 using test::seenFrom;
 
 /// Two rooms of one shape, the second turned by 1 radian, each with a pillar.
-PolygonMap twinRooms() {
+PolygonMap turnedTwinRooms() {
   const auto place = [](std::vector<TPoint2D> v, double angle, double dx, double dy) {
     for (TPoint2D& p : v) {
       p = TPoint2D(std::cos(angle) * p.x - std::sin(angle) * p.y + dx,
@@ -56,11 +56,11 @@ FreePolygon symmetricHall(const TPoint2D& middle, double stretched) {
   return test::freePolygon(test::rectangle(low.x, low.y, high.x, high.y), pillars);
 }
 
-std::vector<std::pair<std::string, PolygonMap>> maps() {
+std::vector<std::pair<std::string, PolygonMap>> skeletonMaps() {
   std::vector<std::pair<std::string, PolygonMap>> all;
   for (auto& [name, map] : test::namedMaps()) all.emplace_back(name, map);
   all.emplace_back("open edges", test::withOpenEdges(test::pillarMap(), 0.3, 5));
-  all.emplace_back("twin rooms", twinRooms());
+  all.emplace_back("twin rooms", turnedTwinRooms());
   all.emplace_back("symmetric hall", PolygonMap({symmetricHall({0, 0}, 0.0)}));
   std::mt19937 random(91);
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
@@ -113,7 +113,7 @@ TEST(SkeletonLocalizer, AnswersRandomPosesAsTheSingleShotDoes) {
   std::mt19937 random(92);
   std::uniform_real_distribution<double> angle(-3, 3);
   Asked asked;
-  for (const auto& [name, map] : maps()) {
+  for (const auto& [name, map] : skeletonMaps()) {
     SCOPED_TRACE(name);
     const SkeletonLocalizer classes(map);
     const ExactLocalizer single_shot(map);
@@ -127,7 +127,7 @@ TEST(SkeletonLocalizer, AnswersRandomPosesAsTheSingleShotDoes) {
 TEST(SkeletonLocalizer, AnswersPointsOnCriticalSegmentsAndTheirCrossings) {
   std::mt19937 random(93);
   Asked on_segments, on_tied;
-  for (const auto& [name, map] : maps()) {
+  for (const auto& [name, map] : skeletonMaps()) {
     SCOPED_TRACE(name);
     const SkeletonLocalizer classes(map);
     const ExactLocalizer single_shot(map);
@@ -197,7 +197,7 @@ TEST(SkeletonLocalizer, FindsEveryPointOfADenseGridFromWhichTheSameIsSeen) {
 }
 
 TEST(SkeletonLocalizer, FindsATurnedTwinAndTheCompassChooses) {
-  const PolygonMap map = twinRooms();
+  const PolygonMap map = turnedTwinRooms();
   const SkeletonLocalizer classes(map);
   const auto view = seenFrom(map, {4, 2, 0.3});
   const auto both = classes.localize(view);

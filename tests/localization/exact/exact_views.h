@@ -14,6 +14,9 @@
 /// Noise-free views as the exact queries take them, and what they answer.
 namespace mrpt_polyloc::test {
 
+/// What the exact queries are asked with in these tests [m].
+constexpr double kExactTolerance = 1e-6;
+
 /// What is seen from a pose, in the robot's frame.
 inline std::vector<TPoint2D> seenFrom(const PolygonMap& map, const mrpt::math::TPose2D& pose) {
   const Triangulation triangulation(map);

@@ -1,4 +1,6 @@
 #include "tests/support/simulated_scans.h"
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/matrices.h>
 #include <mrpt_polyloc/localization/ranking/pose_covariance.h>
 
 #include <Eigen/Dense>
@@ -8,14 +10,6 @@ namespace mrpt_polyloc::test {
 namespace {
 
 using mrpt::math::TPose2D;
-
-Eigen::Matrix3d toEigen(const mrpt::math::CMatrixDouble33& matrix) {
-  Eigen::Matrix3d m;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) m(row, column) = matrix(row, column);
-  }
-  return m;
-}
 
 RefinedPose refined(const TPose2D& pose, const Eigen::Matrix3d& information,
                     std::size_t used_beams) {

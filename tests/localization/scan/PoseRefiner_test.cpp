@@ -1,6 +1,8 @@
 #include "tests/support/params_messages.h"
 #include "tests/support/random_maps.h"
 #include "tests/support/simulated_scans.h"
+#include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/matrices.h>
 #include <mrpt_polyloc/localization/scan/PoseRefiner.h>
 #include <mrpt_polyloc/localization/scan/ScanCost.h>
 
@@ -16,18 +18,8 @@ namespace {
 using mrpt::math::TPose2D;
 using ::testing::HasSubstr;
 
-constexpr double kDegree = kPi / 180;
-
 RangePredictor predictorOf(const PolygonMap& map) {
   return RangePredictor(Triangulation(map), RangePredictor::kSquareSize, 1);
-}
-
-Eigen::Matrix3d toEigen(const mrpt::math::CMatrixDouble33& m) {
-  Eigen::Matrix3d result;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) result(row, column) = m(row, column);
-  }
-  return result;
 }
 
 void expectSymmetricAndPositive(const mrpt::math::CMatrixDouble33& information) {

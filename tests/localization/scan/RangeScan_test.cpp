@@ -1,26 +1,24 @@
+#include "tests/support/constants.h"
 #include "tests/support/simulated_scans.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/localization/scan/RangeScan.h>
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <random>
 
 namespace mrpt_polyloc::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 TEST(RangeScan, BeamsWithoutAUsableRangeOrBearingAreInvalid) {
   for (const BeamKind kind : {BeamKind::hit, BeamKind::no_return}) {
-    for (const double range : {kNan, kInfinity, -kInfinity, -1.0, 0.0, -0.0, 1e39}) {
+    for (const double range : {kNaN, kInfinity, -kInfinity, -1.0, 0.0, -0.0, 1e39}) {
       const RangeScan scan({{0.5, range, kind}});
       EXPECT_EQ(scan.beams()[0].kind, BeamKind::invalid) << range;
       EXPECT_EQ(scan.beams()[0].range, 0.0);
       EXPECT_EQ(scan.beams()[0].bearing, 0.0);
     }
-    for (const double bearing : {kNan, kInfinity, -kInfinity}) {
+    for (const double bearing : {kNaN, kInfinity, -kInfinity}) {
       EXPECT_EQ(RangeScan({{bearing, 2.0, kind}}).beams()[0].kind, BeamKind::invalid) << bearing;
     }
     const RangeScan good({{-7.0, 1e-3, kind}});
@@ -31,7 +29,7 @@ TEST(RangeScan, BeamsWithoutAUsableRangeOrBearingAreInvalid) {
 }
 
 TEST(RangeScan, InvalidBeamsCarryNothing) {
-  const RangeScan scan({{1.0, 2.0, BeamKind::invalid}, {kNan, kNan, BeamKind::invalid}});
+  const RangeScan scan({{1.0, 2.0, BeamKind::invalid}, {kNaN, kNaN, BeamKind::invalid}});
   for (const Beam& beam : scan.beams()) {
     EXPECT_EQ(beam.kind, BeamKind::invalid);
     EXPECT_EQ(beam.range, 0.0);
@@ -42,7 +40,7 @@ TEST(RangeScan, InvalidBeamsCarryNothing) {
 TEST(RangeScan, CountsAndKeepsTheOrder) {
   const RangeScan scan({{0.3, 1, BeamKind::hit},
                         {0.1, 2, BeamKind::no_return},
-                        {0.2, kNan, BeamKind::hit},
+                        {0.2, kNaN, BeamKind::hit},
                         {0.0, 3, BeamKind::hit},
                         {0.0, 3, BeamKind::invalid}},
                        {0.1, 0.2}, 12.5, "front");

@@ -1,17 +1,15 @@
+#include "tests/support/constants.h"
 #include "tests/support/params_messages.h"
 #include <mrpt_polyloc/localization/scan/RobustCost.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace mrpt_polyloc::test {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kEps = 1e-6F;
 
 /// Binary fractions, so that sums are exact.
@@ -27,12 +25,12 @@ RobustCostParams roundParams() {
 
 TEST(RobustCost, HitWithoutAnOpenEdge) {
   const RobustCost cost(roundParams());
-  EXPECT_FLOAT_EQ(cost.hit(3.0F, 3.0F, kInfinity), 0.0F);
-  EXPECT_NEAR(cost.hit(2.75F, 3.0F, kInfinity), 0.25F, kEps);  // short of the wall
-  EXPECT_FLOAT_EQ(cost.hit(2.0F, 3.0F, kInfinity), 0.5F);
-  EXPECT_NEAR(cost.hit(3.25F, 3.0F, kInfinity), 0.25F, kEps);  // beyond the wall
-  EXPECT_FLOAT_EQ(cost.hit(9.0F, 3.0F, kInfinity), 0.75F);
-  EXPECT_FLOAT_EQ(cost.hit(9.0F, kInfinity, kInfinity), 0.5F);  // no wall at all
+  EXPECT_FLOAT_EQ(cost.hit(3.0F, 3.0F, kInfinityF), 0.0F);
+  EXPECT_NEAR(cost.hit(2.75F, 3.0F, kInfinityF), 0.25F, kEps);  // short of the wall
+  EXPECT_FLOAT_EQ(cost.hit(2.0F, 3.0F, kInfinityF), 0.5F);
+  EXPECT_NEAR(cost.hit(3.25F, 3.0F, kInfinityF), 0.25F, kEps);  // beyond the wall
+  EXPECT_FLOAT_EQ(cost.hit(9.0F, 3.0F, kInfinityF), 0.75F);
+  EXPECT_FLOAT_EQ(cost.hit(9.0F, kInfinityF, kInfinityF), 0.5F);  // no wall at all
 }
 
 TEST(RobustCost, HitWithAnOpenEdge) {
@@ -45,31 +43,32 @@ TEST(RobustCost, HitWithAnOpenEdge) {
   EXPECT_FLOAT_EQ(cost.hit(5.0F, 5.0F, 2.0F), 0.0F);
   EXPECT_NEAR(cost.hit(5.5F, 5.0F, 2.0F), 0.5F, kEps);  // beyond that wall it is known again
   EXPECT_FLOAT_EQ(cost.hit(9.0F, 5.0F, 2.0F), 0.75F);
-  EXPECT_FLOAT_EQ(cost.hit(9.0F, kInfinity, 2.0F), 0.25F);  // nothing known beyond
+  EXPECT_FLOAT_EQ(cost.hit(9.0F, kInfinityF, 2.0F), 0.25F);  // nothing known beyond
 }
 
 TEST(RobustCost, NoReturn) {
   const RobustCost cost(roundParams());
-  EXPECT_FLOAT_EQ(cost.noReturn(8.0F, 3.0F, kInfinity), 0.125F);  // a near wall
-  EXPECT_FLOAT_EQ(cost.noReturn(8.0F, 4.0F, kInfinity), 0.0F);    // not nearer than the share
-  EXPECT_FLOAT_EQ(cost.noReturn(8.0F, 6.0F, kInfinity), 0.0F);
-  EXPECT_FLOAT_EQ(cost.noReturn(8.0F, kInfinity, kInfinity), 0.0F);
+  EXPECT_FLOAT_EQ(cost.noReturn(8.0F, 3.0F, kInfinityF), 0.125F);  // a near wall
+  EXPECT_FLOAT_EQ(cost.noReturn(8.0F, 4.0F, kInfinityF), 0.0F);    // not nearer than the share
+  EXPECT_FLOAT_EQ(cost.noReturn(8.0F, 6.0F, kInfinityF), 0.0F);
+  EXPECT_FLOAT_EQ(cost.noReturn(8.0F, kInfinityF, kInfinityF), 0.0F);
   EXPECT_FLOAT_EQ(cost.noReturn(8.0F, 3.0F, 2.0F), 0.0F);  // an open edge was crossed
-  EXPECT_FLOAT_EQ(cost.noReturn(8.0F, kInfinity, 2.0F), 0.0F);
+  EXPECT_FLOAT_EQ(cost.noReturn(8.0F, kInfinityF, 2.0F), 0.0F);
 }
 
 TEST(RobustCost, OfABeamByItsKind) {
   const RobustCost cost(roundParams());
-  EXPECT_NEAR(cost({0, 2.75, BeamKind::hit}, 3.0F, kInfinity), 0.25F, kEps);
-  EXPECT_FLOAT_EQ(cost({0, 8.0, BeamKind::no_return}, 3.0F, kInfinity), 0.125F);
-  EXPECT_FLOAT_EQ(cost({0, 8.0, BeamKind::invalid}, 3.0F, kInfinity), 0.0F);
+  EXPECT_NEAR(cost({0, 2.75, BeamKind::hit}, 3.0F, kInfinityF), 0.25F, kEps);
+  EXPECT_FLOAT_EQ(cost({0, 8.0, BeamKind::no_return}, 3.0F, kInfinityF), 0.125F);
+  EXPECT_FLOAT_EQ(cost({0, 8.0, BeamKind::invalid}, 3.0F, kInfinityF), 0.0F);
 }
 
 TEST(RobustCost, GrowsWithTheErrorOnEitherSideOfTheWall) {
   const RobustCost cost;
   constexpr float kWall = 4.0F;
   for (float z = 0.01F; z < 8.0F; z += 0.01F) {
-    const float here = cost.hit(z, kWall, kInfinity), next = cost.hit(z + 0.01F, kWall, kInfinity);
+    const float here = cost.hit(z, kWall, kInfinityF),
+                next = cost.hit(z + 0.01F, kWall, kInfinityF);
     if (z + 0.01F <= kWall) {
       EXPECT_GE(here, next) << z;
     }
@@ -86,7 +85,7 @@ TEST(RobustCost, GrowsWithTheErrorOnEitherSideOfTheWall) {
 
 TEST(RobustCost, ChecksNameTheField) {
   EXPECT_EQ(complaintOf(RobustCostParams{}), "");
-  for (const double bad : {0.0, -1.0, std::nan(""), static_cast<double>(kInfinity)}) {
+  for (const double bad : {0.0, -1.0, std::nan(""), kInfinity}) {
     RobustCostParams params;
     params.tau_short = bad;
     EXPECT_THAT(complaintOf(params), HasSubstr("tau_short"));
@@ -97,7 +96,7 @@ TEST(RobustCost, ChecksNameTheField) {
     params.tau_open = bad;
     EXPECT_THAT(complaintOf(params), HasSubstr("tau_open"));
   }
-  for (const double bad : {-0.1, std::nan(""), static_cast<double>(kInfinity)}) {
+  for (const double bad : {-0.1, std::nan(""), kInfinity}) {
     RobustCostParams params;
     params.tau_none = bad;
     EXPECT_THAT(complaintOf(params), HasSubstr("tau_none"));

@@ -1,15 +1,12 @@
+#include "tests/support/constants.h"
 #include <mrpt_polyloc/localization/scan/beam_evidence.h>
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace mrpt_polyloc::test {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-float evidenceOf(double range, float wall, float open = kInfinity, BeamKind kind = BeamKind::hit) {
+float evidenceOf(double range, float wall, float open = kInfinityF, BeamKind kind = BeamKind::hit) {
   return beamEvidence({{0.0, range, kind}}, {{wall}, {open}}).front();
 }
 
@@ -21,7 +18,7 @@ TEST(BeamEvidence, ByHand) {
   EXPECT_NEAR(evidenceOf(2.5, 3.0F), 0.5, 1e-6);                // up to here as the cost
   EXPECT_NEAR(evidenceOf(1.5, 4.0F), 0.5 + 0.05 * 2.0, 1e-6);   // two metres more are hidden
   EXPECT_NEAR(evidenceOf(1.0, 30.0F), 0.5 + 0.05 * 5.0, 1e-6);  // five at most
-  EXPECT_NEAR(evidenceOf(1.0, kInfinity), 0.5 + 0.05 * 5.0, 1e-6);
+  EXPECT_NEAR(evidenceOf(1.0, kInfinityF), 0.5 + 0.05 * 5.0, 1e-6);
 }
 
 TEST(BeamEvidence, WhatLiesPastAnOpenEdgeIsNotHidden) {
@@ -30,8 +27,8 @@ TEST(BeamEvidence, WhatLiesPastAnOpenEdgeIsNotHidden) {
 }
 
 TEST(BeamEvidence, OfNoReturns) {
-  EXPECT_NEAR(evidenceOf(20.0, 3.0F, kInfinity, BeamKind::no_return), 0.15, 1e-6);
-  EXPECT_NEAR(evidenceOf(20.0, kInfinity, kInfinity, BeamKind::no_return), 0.0, 1e-6);
+  EXPECT_NEAR(evidenceOf(20.0, 3.0F, kInfinityF, BeamKind::no_return), 0.15, 1e-6);
+  EXPECT_NEAR(evidenceOf(20.0, kInfinityF, kInfinityF, BeamKind::no_return), 0.0, 1e-6);
   EXPECT_TRUE(beamEvidence({}, {}).empty());
 }
 

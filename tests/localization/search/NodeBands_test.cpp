@@ -1,17 +1,15 @@
+#include "tests/support/constants.h"
 #include <mrpt_polyloc/localization/search/NodeBands.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
 namespace mrpt_polyloc::test {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// What a band makes a beam of range z cost at least, uncapped [m].
 float bound(const BinBand& band, float z) {
@@ -24,7 +22,7 @@ BinBand randomBand(std::mt19937& random) {
   std::uniform_real_distribution<float> range(0.0F, 10.0F);
   std::vector<float> sorted{range(random), range(random), range(random), range(random)};
   std::sort(sorted.begin(), sorted.end());
-  if (random() % 5 == 0) sorted[3] = kInfinity;
+  if (random() % 5 == 0) sorted[3] = kInfinityF;
   if (random() % 5 == 0) sorted[1] = sorted[2] = sorted[3] = sorted[0];
   const bool has_gap = random() % 3 != 0;
   return {sorted[0], sorted[3], has_gap ? sorted[1] : 0.0F, has_gap ? sorted[2] : 0.0F,

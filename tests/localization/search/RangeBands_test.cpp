@@ -58,14 +58,14 @@ BoundingBox blockOf(const MapWithBands& built, const ConvexPieces::Piece& leaf) 
 }
 
 /// How a band holds what is seen from points of its leaf.
-struct Tally {
+struct BandTally {
   std::size_t rays = 0;
   std::size_t outside = 0;
   std::size_t in_gaps = 0;  ///< bins that have one
   double worst = 0.0;       ///< how far outside [m]
 };
 
-void expectWithin(double range, float low, float high, Tally& tally) {
+void expectWithin(double range, float low, float high, BandTally& tally) {
   // Single precision, and points rounded to the chains' grid.
   const double slack = 1e-3 + 1e-4 * (std::isfinite(range) ? range : 0.0);
   ++tally.rays;
@@ -76,7 +76,7 @@ void expectWithin(double range, float low, float high, Tally& tally) {
 }
 
 /// Nothing is first met at `range` within a gap.
-void expectOutside(double range, float low, float high, Tally& tally) {
+void expectOutside(double range, float low, float high, BandTally& tally) {
   const double slack = 1e-3 + 1e-4 * (std::isfinite(range) ? range : 0.0);
   const double off = std::min(range - static_cast<double>(low), static_cast<double>(high) - range);
   if (!(off > slack)) return;
@@ -86,12 +86,13 @@ void expectOutside(double range, float low, float high, Tally& tally) {
 
 enum class Lists { of_index, narrowed };
 
-Tally checkCells(const MapWithBands& built, std::size_t leaves, std::uint32_t seed, Lists lists) {
+BandTally checkCells(const MapWithBands& built, std::size_t leaves, std::uint32_t seed,
+                     Lists lists) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   RangeBandFinder finder(built.index);
   RangeBands bands;
-  Tally tally;
+  BandTally tally;
   for (std::size_t i = 0; i < leaves; ++i) {
     const auto& leaf = built.leaves.pieces[random() % built.leaves.pieces.size()];
     const TPoint2D* polygon = &built.leaves.vertices[leaf.first];
@@ -127,7 +128,7 @@ TEST(RangeBands, HoldWhatIsSeenInNamedMaps) {
       SCOPED_TRACE(std::string(name) + (open_share > 0 ? " with open edges" : ""));
       const MapWithBands built(open_share > 0 ? withOpenEdges(map, open_share, 3) : map, 0.2);
       for (const Lists lists : {Lists::of_index, Lists::narrowed}) {
-        const Tally tally = checkCells(built, 60, 1, lists);
+        const BandTally tally = checkCells(built, 60, 1, lists);
         EXPECT_EQ(tally.outside, 0U) << "of " << tally.rays << ", by " << tally.worst << " m";
       }
     }
@@ -141,7 +142,7 @@ TEST(RangeBands, HoldWhatIsSeenInRandomMaps) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const MapWithBands built(floorPlan(randomParams(random), seed), seed % 2 == 0 ? 0.2 : 0.4);
     for (const Lists lists : {Lists::of_index, Lists::narrowed}) {
-      const Tally tally = checkCells(built, 80, seed, lists);
+      const BandTally tally = checkCells(built, 80, seed, lists);
       EXPECT_EQ(tally.outside, 0U) << "of " << tally.rays << ", by " << tally.worst << " m";
       gaps += tally.in_gaps;
       rays += tally.rays;
