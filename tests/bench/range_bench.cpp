@@ -2,6 +2,7 @@
 // (counter `ratio`), and on real maps where POLYLOC_DATA is set.
 #include "tests/support/data_dir.h"
 #include "tests/support/random_maps.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/io/map_files.h>
 #include <mrpt_polyloc/visibility/RangePredictor.h>
 #include <mrpt_polyloc/visibility/ViewExpander.h>
@@ -23,8 +24,6 @@ namespace mrpt_polyloc {
 namespace {
 
 using mrpt::math::TPose2D;
-
-constexpr double kPi = 3.14159265358979323846;
 
 std::vector<double> fan(std::size_t beams, double field_of_view) {
   std::vector<double> bearings(beams);

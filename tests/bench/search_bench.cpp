@@ -3,6 +3,7 @@
 // compass.
 #include "tests/support/BruteForceRays.h"
 #include "tests/support/random_maps.h"
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 
 #include <benchmark/benchmark.h>
@@ -18,8 +19,6 @@ namespace mrpt_polyloc {
 namespace {
 
 using mrpt::math::TPose2D;
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Floors of about so many square metres.
 PolygonMap planOfArea(double area) {
