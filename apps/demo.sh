@@ -9,7 +9,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 bash cmake/install-debian-packages.sh
 
 echo "== build"
-cmake -S . -B build-demo -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF > /dev/null
+cmake -S . -B build-demo -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF \
+  -DCMAKE_UNITY_BUILD=ON > /dev/null
 cmake --build build-demo --parallel "$(nproc)"
 
 echo "== localize"
