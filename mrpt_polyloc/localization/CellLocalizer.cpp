@@ -1,5 +1,6 @@
 #include <mrpt_polyloc/base/Budget.h>
 #include <mrpt_polyloc/base/Stopwatch.h>
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/CellLocalizer.h>
@@ -28,10 +29,10 @@ using mrpt::math::TPose2D;
 class DifferentPoses {
  public:
   bool isNew(const TPose2D& pose) {
-    constexpr double kSide = 0.3, kTurn = 0.08726646259971647;  // m, rad: 5 degrees
+    constexpr double kSide = 0.3, kSlice = 5.0 * kDegree;  // [m], [rad]
     return seen_
         .insert({std::lround(pose.x / kSide), std::lround(pose.y / kSide),
-                 std::lround(pose.phi / kTurn)})
+                 std::lround(pose.phi / kSlice)})
         .second;
   }
 
