@@ -209,6 +209,8 @@ TEST_F(ViewPage, ALogIsScrubbed) {
   EXPECT_EQ(browser().run("return polyloc.data.answer.row"), 3);
   const std::string text = browser().run("return document.getElementById('log-text').textContent");
   EXPECT_EQ(text, "scan 3 of 12 · right");
+  const std::string is_fixed = "return document.querySelector('[data-key=x]').disabled";
+  EXPECT_EQ(browser().run(is_fixed), true);
   browser().press(".");
   ASSERT_TRUE(settled());
   EXPECT_EQ(state("row"), 4);
@@ -227,6 +229,7 @@ TEST_F(ViewPage, ALogIsScrubbed) {
   browser().run("document.getElementById('log-leave').click()");
   ASSERT_TRUE(settled());
   EXPECT_EQ(state("row"), -1);
+  EXPECT_TRUE(browser().waitFor("!document.querySelector('[data-key=x]').disabled"));
 }
 
 TEST_F(ViewPage, FourHundredPixelsAreEnough) {

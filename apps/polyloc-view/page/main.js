@@ -266,6 +266,8 @@ function show() {
   const result = data.answer?.result;
   showAnswer(result, state.sel, choose, data.answer?.drive?.plan?.falls);
   $('travel-plan').hidden = inDrive() || inLog() || result?.status !== 'ambiguous';
+  // Where the robot stands is not in the hand then.
+  for (const key of ['x', 'y', 'deg']) document.querySelector(`[data-key="${key}"]`).disabled = inLog() || state.step > 0;
 }
 
 // What the switches need beside the answer itself.

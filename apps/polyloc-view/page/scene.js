@@ -79,7 +79,9 @@ function drawHypotheses(pen, scene, colour, scale) {
     const size = off < 20 ? 30 : first ? 18 : 14;
     const chosen = i === scene.chosen && hypotheses.length > 1;
     drawArrow(pen, h, size / scale, { fill: own, alpha, stroke: colour(chosen ? '--ink' : '--free'), strokeAlpha: 1, width: chosen ? 1.5 : 1 });
-    if (i < 12 && (i === scene.chosen || h.weight >= 0.005)) pen.text(h.x, h.y, 20, 16, `${i + 1} · ${(100 * h.weight).toFixed(h.weight < 0.1 ? 1 : 0)} %`, { fill: own, size: 12, halo: colour('--free') });
+    // Beside the handle, which may lie where the words would stand.
+    const up = off < 20 && Math.cos(scene.pose.phi - Math.PI / 6) > 0.7 ? -18 : 16;
+    if (i < 12 && (i === scene.chosen || h.weight >= 0.005)) pen.text(h.x, h.y, 20, up, `${i + 1} · ${(100 * h.weight).toFixed(h.weight < 0.1 ? 1 : 0)} %`, { fill: own, size: 12, halo: colour('--free') });
   }
 }
 
