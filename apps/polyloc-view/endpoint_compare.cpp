@@ -1,6 +1,6 @@
 #include "endpoint_json.h"
 #include "endpoints.h"
-#include <mrpt_polyloc/localization/scan_comparison.h>
+#include <mrpt_polyloc/localization/inspection/scan_comparison.h>
 
 namespace mrpt_polyloc::apps {
 

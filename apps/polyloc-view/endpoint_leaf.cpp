@@ -1,7 +1,7 @@
 #include "ApiError.h"
 #include "endpoint_json.h"
 #include "endpoints.h"
-#include <mrpt_polyloc/localization/leaf_bands.h>
+#include <mrpt_polyloc/localization/inspection/leaf_bands.h>
 
 namespace mrpt_polyloc::apps {
 

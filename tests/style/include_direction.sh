@@ -21,7 +21,7 @@ exec awk '
 BEGIN {
   count = split("base geometry visibility polar localization/scan localization/exact " \
                 "localization/nearest_cells localization/search localization/ranking " \
-                "localization travel io mrpt_bridge evaluation " \
+                "localization localization/inspection travel io mrpt_bridge evaluation " \
                 "evaluation/baselines", order)
   for (i = 1; i <= count; ++i) rank[order[i]] = i
   core = rank["travel"]

@@ -1,9 +1,9 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/localization/MapIndexParts.h>
+#include <mrpt_polyloc/localization/inspection/scan_comparison.h>
 #include <mrpt_polyloc/localization/nearest_cells/scan_view.h>
 #include <mrpt_polyloc/localization/scan/RobustCost.h>
-#include <mrpt_polyloc/localization/scan_comparison.h>
 #include <mrpt_polyloc/polar/PolarMetric.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "tests/support/simulated_scans.h"
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/localization/inspection/scan_comparison.h>
 #include <mrpt_polyloc/localization/scan/RobustCost.h>
-#include <mrpt_polyloc/localization/scan_comparison.h>
 
 #include <gtest/gtest.h>
 

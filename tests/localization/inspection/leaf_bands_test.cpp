@@ -1,7 +1,7 @@
 #include "tests/support/BruteForceRays.h"
 #include "tests/support/map_factories.h"
 #include "tests/support/simulated_scans.h"
-#include <mrpt_polyloc/localization/leaf_bands.h>
+#include <mrpt_polyloc/localization/inspection/leaf_bands.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <mrpt_polyloc/base/vectors.h>
 #include <mrpt_polyloc/localization/MapIndexParts.h>
-#include <mrpt_polyloc/localization/leaf_bands.h>
+#include <mrpt_polyloc/localization/inspection/leaf_bands.h>
 #include <mrpt_polyloc/localization/search/QuantizedRange.h>
 
 #include <cstdint>
