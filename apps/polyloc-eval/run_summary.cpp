@@ -82,12 +82,9 @@ ordered_json resultOfJob(const EvaluatedDataset& dataset, const EvaluatedMethod&
   ordered_json result;
   result["dataset"] = dataset.name;
   result["method"] = method.name;
-  const ordered_json figures = summaryObject(summarize(scores), good ? &*good : nullptr, job.index,
-                                             dataset.description.at("statistics"));
-  for (const auto& item : figures.items()) {
-    if (item.key() == "map") result["cold_start_s"] = job.cold_start_s;
-    result[item.key()] = item.value();
-  }
+  result.update(summaryObject(summarize(scores), good ? &*good : nullptr, job.index));
+  result["cold_start_s"] = job.cold_start_s;
+  result["map"] = dataset.description.at("statistics");
   addIntervals(result, job, first, dataset.stretch);
   return result;
 }
@@ -115,9 +112,8 @@ ordered_json resultOverAll(const EvaluationRun& run, std::size_t m) {
   result["method"] = run.methods[m].name;
   std::optional<Summary> of_good;
   if (has_good) of_good = summarize(scores, &good);
-  ordered_json figures =
-      summaryObject(summarize(scores), of_good ? &*of_good : nullptr, {}, ordered_json());
-  for (const char* key : {"index_build_s", "index_mb", "map"}) figures.erase(key);
+  ordered_json figures = summaryObject(summarize(scores), of_good ? &*of_good : nullptr, {});
+  for (const char* key : {"index_build_s", "index_mb"}) figures.erase(key);
   result.update(figures);
   addIntervals(result, all, m == 0 ? all : first, stretch);
   return result;

@@ -66,20 +66,21 @@ ordered_json mapStatistics(const PolygonMap& map) {
   return json;
 }
 
-ordered_json summaryObject(const Summary& all, const Summary* good, const IndexFigures& index,
-                           const ordered_json& map_statistics) {
+ordered_json summaryObject(const Summary& all, const Summary* good, const IndexFigures& index) {
   ordered_json json = summaryFigures(all);
   json["index_build_s"] = index.build_s;
   json["index_mb"] = index.mb;
   if (index.cold_start_s) json["cold_start_s"] = *index.cold_start_s;
-  json["map"] = map_statistics;
   if (good != nullptr) json["good"] = summaryFigures(*good);
   return json;
 }
 
 std::string summaryJson(const Summary& all, const Summary* good, const IndexFigures& index,
                         const PolygonMap& map) {
-  return summaryObject(all, good, index, mapStatistics(map)).dump(2) + "\n";
+  ordered_json json = summaryObject(all, nullptr, index);
+  json["map"] = mapStatistics(map);
+  if (good != nullptr) json["good"] = summaryFigures(*good);
+  return json.dump(2) + "\n";
 }
 
 std::string scansCsv(const std::vector<ScanRecord>& records) {

@@ -26,10 +26,9 @@ struct POLYLOC_EXPORT IndexFigures {
   std::optional<double> cold_start_s = std::nullopt;
 };
 
-/// What summary.json says of one set, with the map's figures as mapStatistics() gives them.
+/// What summary.json says of one set, but for its map.
 POLYLOC_EXPORT nlohmann::ordered_json summaryObject(const Summary& all, const Summary* good,
-                                                    const IndexFigures& index,
-                                                    const nlohmann::ordered_json& map_statistics);
+                                                    const IndexFigures& index);
 
 /// The text of summary.json, indented, with a final newline.
 ///
