@@ -6,5 +6,5 @@ target_compile_options(polyloc_warnings INTERFACE -Wall -Wextra -Wpedantic -Wcon
 if(CMAKE_UNITY_BUILD)
   # A class of a source file may have members of types that are that file's own; in files that are
   # joined, g++ takes it for a header's.
-  target_compile_options(polyloc_warnings INTERFACE -Wno-subobject-linkage)
+  target_compile_options(polyloc_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()

@@ -2,12 +2,12 @@
 // triangular expansion in the same run (counter `ratio`), and the time to triangulate large maps.
 #include "tests/support/cgal_visibility.h"
 #include "tests/support/random_maps.h"
+#include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/visibility/visibility_polygon.h>
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <ctime>
 #include <random>
 #include <string>
 #include <vector>
@@ -19,9 +19,7 @@ constexpr std::size_t kPoints = 1000;
 
 /// CPU time of the calling thread, so that a busy machine does not count [s].
 double cpuSeconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  return 1e-3 * threadCpuMs();
 }
 
 /// The median over the points of the time of one call, each taken as the least of `rounds`.

@@ -4,6 +4,7 @@
 #include <utility>
 
 namespace mrpt_polyloc {
+
 SetEvidence::SetEvidence(const RangePredictor& predictor, const ScanSet& set,
                          const MomentWeights& weights, const RobustCostParams& cost,
                          const BeamEvidenceParams& evidence)
