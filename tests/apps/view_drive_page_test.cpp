@@ -57,6 +57,7 @@ TEST_F(ViewDrive, AnAmbiguousAnswerIsDrivenToItsEnd) {
   EXPECT_EQ(browser().run("return document.getElementById('travel-go').disabled"), true);
   const int last = state("step");
   ASSERT_GE(last, 1);
+  EXPECT_EQ(browser().run("return document.querySelector('[data-key=deg]').disabled"), true);
 
   // The address holds the step.
   ASSERT_TRUE(browser().waitFor("location.hash.includes('step=" + std::to_string(last) + "')"));

@@ -232,6 +232,19 @@ TEST_F(ViewPage, ALogIsScrubbed) {
   EXPECT_TRUE(browser().waitFor("!document.querySelector('[data-key=x]').disabled"));
 }
 
+TEST_F(ViewPage, NoWordsStandUnderTheHandle) {
+  const ViewProcess server({kNiches});
+  open(server, "x=7&y=2.4&deg=20");
+  // The handle is 37 pixels from the robot at this scale, the words begin 20 to its right.
+  const json near = browser().run(
+      "const { riseOfWords } = await import('./scene.js');"
+      "return [...Array(72).keys()].filter((i) => {"
+      "  const phi = i * Math.PI / 36, x = 37 * Math.cos(phi), y = 37 * Math.sin(phi);"
+      "  return x > 12 && x < 78 && Math.abs(y - riseOfWords(phi)) < 12; })");
+  EXPECT_EQ(near, json::array());
+  EXPECT_EQ(browser().run("return (await import('./scene.js')).riseOfWords(null)"), 16);
+}
+
 TEST_F(ViewPage, FourHundredPixelsAreEnough) {
   const ViewProcess server({kNiches});
   browser().emulate(400, 740);

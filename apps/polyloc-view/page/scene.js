@@ -65,6 +65,10 @@ export function drawArrow(pen, pose, length, style) {
   pen.chains([[...at(l, 0), ...at(-0.62 * l, 0.58 * l), ...at(-0.28 * l, 0), ...at(-0.62 * l, -0.58 * l)]], { ...style, closed: true });
 }
 
+// How far above a hypothesis its words stand, to its right [pixels]: below where the handle of a robot
+// upon it, which looks to phi, would lie on them.
+export const riseOfWords = (phi) => (phi !== null && Math.cos(phi - 0.61) > 0.766 ? -18 : 16);
+
 function drawHypotheses(pen, scene, colour, scale) {
   const { hypotheses } = scene.result;
   for (let i = hypotheses.length - 1; i >= 0; --i) {
@@ -79,8 +83,7 @@ function drawHypotheses(pen, scene, colour, scale) {
     const size = off < 20 ? 30 : first ? 18 : 14;
     const chosen = i === scene.chosen && hypotheses.length > 1;
     drawArrow(pen, h, size / scale, { fill: own, alpha, stroke: colour(chosen ? '--ink' : '--free'), strokeAlpha: 1, width: chosen ? 1.5 : 1 });
-    // Beside the handle, which may lie where the words would stand.
-    const up = off < 20 && Math.cos(scene.pose.phi - Math.PI / 6) > 0.7 ? -18 : 16;
+    const up = riseOfWords(off < 20 ? scene.pose.phi : null);
     if (i < 12 && (i === scene.chosen || h.weight >= 0.005)) pen.text(h.x, h.y, 20, up, `${i + 1} · ${(100 * h.weight).toFixed(h.weight < 0.1 ? 1 : 0)} %`, { fill: own, size: 12, halo: colour('--free') });
   }
 }
