@@ -77,8 +77,9 @@ ordered_json summaryObject(const Summary& all, const Summary* good, const IndexF
 
 std::string summaryJson(const Summary& all, const Summary* good, const IndexFigures& index,
                         const PolygonMap& map) {
-  ordered_json json = summaryObject(all, good, index);
+  ordered_json json = summaryObject(all, nullptr, index);
   json["map"] = mapStatistics(map);
+  if (good != nullptr) json["good"] = summaryFigures(*good);
   return json.dump(2) + "\n";
 }
 

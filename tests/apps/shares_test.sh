@@ -8,6 +8,10 @@ work=$(mktemp -d)
 daemons=()
 cleanup() {
   for pid in "${daemons[@]}"; do kill "$pid" 2> /dev/null || true; done
+  for pid in "${daemons[@]}"; do # they write their state as they end, and leave no folder alone
+    timeout 20 tail --pid="$pid" -f /dev/null || kill -9 "$pid" 2> /dev/null || true
+  done
+  wait || true
   rm -rf "$work"
 }
 trap cleanup EXIT
