@@ -1,5 +1,6 @@
 #include "FilterRun.h"
 
+#include "step_motion.h"
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/io/mrpt_archive.h>
@@ -77,6 +78,7 @@ class Driver {
       filter_.executeOn(particles_, next.action.get(), next.frame.get(), nullptr);
     });
     record.particles = particles_.size();
+    recovery_.move(motionOf(next));
     judge(next, record);
     return record;
   }

@@ -156,6 +156,8 @@ void readRecovery(IniSection& section, ReplayConfig& config) {
   recovery.least_gain = section.number("recovery_least_gain", recovery.least_gain, 0, 1e6);
   recovery.sure_weight = section.number("recovery_sure_weight", recovery.sure_weight, 0, 1);
   recovery.patience = section.count("recovery_patience", recovery.patience, 0, 1'000'000);
+  recovery.last_metres.length =
+      section.number("recovery_accumulate", recovery.last_metres.length, 0, 1e3);
   recovery.judged_particles =
       section.count("judged_particles", recovery.judged_particles, 1, 100'000);
   recovery.least_hits = section.count("judged_least_hits", recovery.least_hits, 1, 100'000);
@@ -186,6 +188,7 @@ void readPolyloc(ReplayConfig& config) {
                       "recovery_least_gain",
                       "recovery_sure_weight",
                       "recovery_patience",
+                      "recovery_accumulate",
                       "judged_particles",
                       "judged_least_hits",
                       "monitor_least_steps",

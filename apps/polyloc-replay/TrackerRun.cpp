@@ -1,23 +1,14 @@
 #include "TrackerRun.h"
 
+#include "step_motion.h"
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/travel/HypothesisTracker.h>
-
-#include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CActionRobotMovement2D.h>
 
 #include <algorithm>
 #include <time.h>
 
 namespace mrpt_polyloc::replay {
 namespace {
-
-/// The movement since the step before, with the noise that the tracker expects of wheels.
-Motion motionOf(const ReplayStep& step) {
-  if (!step.action) return {};
-  const auto movement = step.action->getBestMovementEstimation();
-  return measuredMotion(movement->poseChange->getMeanVal().asTPose());
-}
 
 void describe(const TrackingState& state, bool with_cloud, StepRecord& record) {
   record.tracking = state.status;

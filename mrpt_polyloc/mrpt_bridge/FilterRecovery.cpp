@@ -35,6 +35,10 @@ std::vector<mrpt::math::TPose2D> evenlyByWeight(const CPosePDFParticles& particl
   return taken;
 }
 
+bool isInDoubt(FilterHealth health) {
+  return health == FilterHealth::doubtful || health == FilterHealth::lost;
+}
+
 /// Per beam, on a scale of its own, so that the monitor's thresholds hold whatever the filter uses.
 TLikelihoodOptions fitOptions() {
   TLikelihoodOptions options;
@@ -47,6 +51,7 @@ TLikelihoodOptions fitOptions() {
 void FilterRecoveryParams::check() const {
   requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e6);
   monitor.check();
+  last_metres.check();
   requireInRange("share", share, 0.0, 1.0);
   requireNotNegative("least_gain", least_gain);
   requireInRange("sure_weight", sure_weight, 0.0, 1.0);
@@ -89,19 +94,34 @@ FilterRecovery::FilterRecovery(const GlobalLocalizer& localizer, const ParticleS
       seeder_(&seeder),
       map_(std::move(map)),
       params_(params),
-      monitor_(params.monitor) {
+      monitor_(params.monitor),
+      seen_(params.last_metres) {
   params_.check();
 }
 
-LocalizationResult FilterRecovery::search(const RangeScan& scan) const {
+void FilterRecovery::move(const Motion& motion) {
+  motion.check();
+  since_scan_ = since_scan_ + motion;
+}
+
+/// Takes the scan, and returns what was seen on the last metres.
+ScanSet FilterRecovery::lastMetresWith(const RangeScan& scan) {
+  if (scan.stamp() < last_stamp_) seen_.clear();  // a clock set back, or a log begun again
+  last_stamp_ = scan.stamp();
+  const Motion way = std::exchange(since_scan_, Motion());
+  return seen_.add({scan}, way);
+}
+
+LocalizationResult FilterRecovery::search(const ScanSet& seen) const {
   SearchOptions options;
   options.max_hypotheses = params_.max_hypotheses;
-  return localizer_->localize(scan, {}, options);
+  return localizer_->localize(seen, {}, options);
 }
 
 LocalizationResult FilterRecovery::start(const CObservation2DRangeScan& scan, std::uint64_t seed,
                                          CPosePDFParticles& particles) {
-  LocalizationResult found = search(toRangeScan(scan));
+  seen_.clear();
+  LocalizationResult found = search(lastMetresWith(toRangeScan(scan)));
   seeder_->seed(found, seed, particles);
   is_placed_ = !found.hypotheses.empty();
   return found;
@@ -114,15 +134,18 @@ FilterRecovery::Verdict FilterRecovery::update(const CObservation2DRangeScan& sc
   verdict.health = health_;
   if (beams.hitCount() < params_.least_hits) return verdict;
   verdict.fit = filterFit(map_, scan, particles, params_.judged_particles);
+  const bool was_in_doubt = isInDoubt(health_);
   // Before it is placed the filter's own steps say nothing of how a good fit looks.
   if (is_placed_) health_ = monitor_.update(*verdict.fit);
   verdict.health = health_;
+  if (isInDoubt(health_) && !was_in_doubt) seen_.clear();
+  const ScanSet seen = lastMetresWith(beams);
   if (is_placed_ && health_ != FilterHealth::lost) {
     if (health_ != FilterHealth::doubtful) unsure_ = 0;
     return verdict;
   }
 
-  verdict.search = search(beams);
+  verdict.search = search(seen);
   if (verdict.search->hypotheses.empty()) return verdict;
   const Hypothesis& best = verdict.search->hypotheses.front();
   verdict.best_fit = -best.cost / fitOptions().sigma;

@@ -2,6 +2,8 @@
 
 #include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
+#include <mrpt_polyloc/localization/scan/Motion.h>
+#include <mrpt_polyloc/localization/scan/ScanSet.h>
 #include <mrpt_polyloc/mrpt_bridge/CPolygonMap2D.h>
 #include <mrpt_polyloc/mrpt_bridge/FilterMonitor.h>
 #include <mrpt_polyloc/mrpt_bridge/ParticleSeeder.h>
@@ -37,6 +39,15 @@ struct POLYLOC_EXPORT FilterRecoveryParams {
   /// Scans with fewer hits are not judged: they fit almost everywhere.
   std::size_t least_hits = 15;
   std::size_t max_hypotheses = 20;  ///< of a search, so many are seeded or mixed in
+  /// A search looks at all scans of the last so many metres, where move() tells how they were
+  /// driven. Length 0: at the last scan alone.
+  LastMetresParams last_metres = nowAlone();
+
+  static LastMetresParams nowAlone() {
+    LastMetresParams params;
+    params.length = 0.0;
+    return params;
+  }
 
   /// \throws InvalidParamsError naming the bad field.
   void check() const;
@@ -62,6 +73,11 @@ POLYLOC_EXPORT void mixIn(const std::vector<WeightedPose>& drawn, double share,
 /// Use: start() with the first scan; then after each of the filter's steps update(), and where it
 /// returns that hypotheses were mixed in, weigh the particles with the scan once more
 /// (`executeOn(filter, nullptr, &frame)`). Keeps references to localizer and seeder.
+///
+/// *A short drive* tells places apart that one scan cannot. With `last_metres` each search looks at
+/// the scans of the last metres (see GlobalLocalizer::localize(ScanSet)): call move() before each
+/// update(). What was seen before the filter came into doubt is forgotten then, for the robot may
+/// have been carried since.
 class POLYLOC_EXPORT FilterRecovery {
  public:
   /// \throws InvalidParamsError
@@ -82,13 +98,18 @@ class POLYLOC_EXPORT FilterRecovery {
     bool mixed_in = false;                     ///< whether the particles have changed
   };
 
+  /// How the robot moved since the scan before; several calls add up.
+  /// \throws InvalidParamsError unless it is finite
+  void move(const Motion& motion);
+
   /// Judges the filter after its step with this scan. Costs `judged_particles` likelihoods, and a
   /// search if lost.
   Verdict update(const mrpt::obs::CObservation2DRangeScan& scan, std::uint64_t seed,
                  mrpt::poses::CPosePDFParticles& particles);
 
  private:
-  LocalizationResult search(const RangeScan& scan) const;
+  ScanSet lastMetresWith(const RangeScan& scan);
+  LocalizationResult search(const ScanSet& seen) const;
 
   const GlobalLocalizer* localizer_;
   const ParticleSeeder* seeder_;
@@ -96,6 +117,9 @@ class POLYLOC_EXPORT FilterRecovery {
   FilterRecoveryParams params_;
   FilterMonitor monitor_;
   FilterHealth health_ = FilterHealth::learning;
+  ScanAccumulator seen_;
+  Motion since_scan_;  ///< since the last scan that was taken
+  double last_stamp_ = 0.0;
   bool is_placed_ = true;   ///< some search has found something
   std::size_t unsure_ = 0;  ///< searches in a row that were not sure
 };

@@ -51,7 +51,7 @@ TEST_F(ReplayConfigTest, ReadsEveryOption) {
       "7\nleast_per_hypothesis=3\n"
       "uniform_share=0.25\nmax_hypotheses=4\nodometry_noise=ini\nrecovery=no\n"
       "recovery_share=0.75\nrecovery_least_gain=0.9\nrecovery_sure_weight=0.5\nrecovery_patience="
-      "8\njudged_particles=11\njudged_least_hits=12\n"
+      "8\nrecovery_accumulate=2.5\njudged_particles=11\njudged_least_hits=12\n"
       "monitor_least_steps=13\nmonitor_window=14\nmonitor_deviations=1.5\n"
       "monitor_least_deviation=0.125\nmonitor_patience=16\ncarried=3,5-9\nreport_steps=2,4-6\n"
       "[LocalizationExperiment]\nmap_file=/m.gridmap\nrawlog_file=/r.rawlog\n"
@@ -73,6 +73,7 @@ TEST_F(ReplayConfigTest, ReadsEveryOption) {
   EXPECT_EQ(config.recovery.least_gain, 0.9);
   EXPECT_EQ(config.recovery.sure_weight, 0.5);
   EXPECT_EQ(config.recovery.patience, 8U);
+  EXPECT_EQ(config.recovery.last_metres.length, 2.5);
   EXPECT_EQ(config.recovery.judged_particles, 11U);
   EXPECT_EQ(config.recovery.least_hits, 12U);
   EXPECT_EQ(config.recovery.monitor.least_steps, 13U);

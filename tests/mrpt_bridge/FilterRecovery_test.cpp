@@ -189,6 +189,82 @@ TEST_F(AmbiguousRecoveryTest, WaitsForASureAnswerButNotForEver) {
   EXPECT_EQ(stepsUntilMixed(params), 0);
 }
 
+/// A corridor with equal niches at unequal distances, and a laser that sees one of them at most:
+/// only who has driven from one to the next knows where he is.
+class CorridorRecoveryTest : public testing::Test {
+ protected:
+  static constexpr double kRange = 2.5;  // [m]
+  static constexpr double kStep = 0.75;  // [m]
+
+  static TPose2D at(int step) { return {6.0 + kStep * step, 1.0, 0.0}; }
+
+  CObservation2DRangeScan scanFrom(const TPose2D& pose, std::uint32_t seed) const {
+    test::ScanOptions options;
+    options.beams = 180;
+    options.max_range = kRange;
+    options.sigma = 0.01;
+    options.seed = seed;
+    const double aperture = kTwoPi * (1.0 - 1.0 / 180.0);
+    return toObservation(test::simulatedScan(corridor_, pose, options), aperture, 0.0, kRange);
+  }
+
+  /// After a filter that follows the robot standing at one end, the robot is carried to at(0) and
+  /// drives on, while the filter's particles stay. \returns the step at which hypotheses were mixed
+  /// in that are right, 0: never.
+  int stepsUntilFound(double accumulate) {
+    FilterRecoveryParams params;
+    params.patience = 1000;
+    params.last_metres.length = accumulate;
+    FilterRecovery recovery(localizer_, seeder_, CPolygonMap2D(corridor_), params);
+    const TPose2D before{27.5, 1.0, 0.8};
+    CPosePDFParticles particles = particlesAt({before});
+    recovery.start(scanFrom(before, 1), 1, particles);
+    for (std::uint32_t i = 0; i < 20; ++i) {
+      particles = particlesAt({before});
+      recovery.update(scanFrom(before, 2 + i), 2, particles);
+    }
+    for (int step = 1; step < 20; ++step) {
+      particles = particlesAt({before});
+      recovery.move(measuredMotion({kStep, 0.0, 0.0}));
+      const auto verdict =
+          recovery.update(scanFrom(at(step), 100 + static_cast<std::uint32_t>(step)), 3, particles);
+      if (!verdict.mixed_in) continue;
+      EXPECT_GT(beliefNear(particles, at(step)), 0.4) << step;
+      return step;
+    }
+    return 0;
+  }
+
+  PolygonMap corridor_ = test::mapOf({{0, 0},  {30, 0}, {30, 2}, {25, 2}, {25, 3}, {24, 3}, {24, 2},
+                                      {20, 2}, {20, 3}, {19, 3}, {19, 2}, {12, 2}, {12, 3}, {11, 3},
+                                      {11, 2}, {6, 2},  {6, 3},  {5, 3},  {5, 2},  {0, 2}});
+  GlobalLocalizer localizer_{corridor_};
+  ParticleSeeder seeder_{corridor_};
+};
+
+TEST_F(CorridorRecoveryTest, FindsByTheWayDrivenWhatNoScanTells) {
+  EXPECT_EQ(stepsUntilFound(0.0), 0);
+  const int found = stepsUntilFound(8.0);
+  EXPECT_GT(found, 0);
+  EXPECT_LT(found,
+            9);  // at the next niche: what was seen before the robot was carried is forgotten
+}
+
+TEST_F(FilterRecoveryTest, TakesScansOfAClockThatIsSetBack) {
+  FilterRecoveryParams params;
+  params.last_metres.length = 2.0;
+  FilterRecovery recovery(localizer_, seeder_, polygons_, params);
+  CPosePDFParticles particles;
+  CObservation2DRangeScan scan = scanFrom(onTheWay(0), 1);
+  scan.timestamp = mrpt::Clock::fromDouble(2000.0);
+  recovery.start(scan, 1, particles);
+  scan = scanFrom(onTheWay(1), 2);
+  scan.timestamp = mrpt::Clock::fromDouble(1000.0);
+  recovery.move(measuredMotion({0.5, 0.0, 0.0}));
+  EXPECT_NO_THROW(recovery.update(scan, 2, particles));
+  EXPECT_THROW(recovery.move(measuredMotion({std::nan(""), 0.0, 0.0})), InvalidParamsError);
+}
+
 TEST_F(FilterRecoveryTest, SearchesUntilSomethingIsFound) {
   FilterRecovery recovery(localizer_, seeder_, polygons_);
   CPosePDFParticles particles;
@@ -230,6 +306,9 @@ TEST_F(FilterRecoveryTest, NamesBadParameters) {
   EXPECT_THROW(FilterRecovery(localizer_, seeder_, polygons_, params), InvalidParamsError);
   params = {};
   params.judged_particles = 0;
+  EXPECT_THROW(FilterRecovery(localizer_, seeder_, polygons_, params), InvalidParamsError);
+  params = {};
+  params.last_metres.spacing = -1.0;
   EXPECT_THROW(FilterRecovery(localizer_, seeder_, polygons_, params), InvalidParamsError);
   params = {};
   params.monitor.patience = 0;

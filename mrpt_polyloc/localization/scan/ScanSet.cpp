@@ -71,7 +71,7 @@ ScanSet lastMetres(const std::vector<Moment>& drive, std::size_t now,
   std::vector<Moment> kept{drive[now]};
   Motion since_kept;  // from the moment looked at to the last one kept
   double way = 0.0;
-  for (std::size_t i = now; i > 0; --i) {
+  for (std::size_t i = now; i > 0 && params.length > 0.0; --i) {
     const Motion& step = drive[i].since_before;
     if (drive[i].is_after_gap || step.length() > params.longest_step) break;
     way += step.length();
