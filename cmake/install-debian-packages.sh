@@ -11,7 +11,7 @@ packages=(
   libmrpt-maps-dev libmrpt-obs-dev libmrpt-img-dev libmrpt-io-dev libmrpt-slam-dev mrpt-common
   libcgal-dev libgmp-dev libmpfr-dev libboost-dev libeigen3-dev
   nlohmann-json3-dev libcli11-dev libtbb-dev libfftw3-dev zlib1g-dev
-  libpng-dev libyaml-cpp-dev libzstd-dev libcpp-httplib-dev
+  libpng-dev libyaml-cpp-dev libzstd-dev libcpp-httplib-dev libssl-dev
 )
 case "${1-}" in
   "") ;;

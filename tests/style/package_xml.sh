@@ -23,6 +23,7 @@ fftw3f libfftw3
 gmp libgmp
 mpfr mpfr
 nlohmann_json nlohmann-json-dev
+openssl libssl-dev
 python3 python3
 yaml-cpp yaml-cpp
 zstd libzstd-dev
