@@ -121,6 +121,8 @@ make_root() {
   cp -L /etc/resolv.conf /etc/hosts "$root/etc/"
   apt-config dump | grep -E '^Acquire::(https?::Proxy|Check-Date|Check-Valid-Until) ' \
     > "$root/etc/apt/apt.conf.d/99as-outside" || true
+  # The copy is thrown away: nothing in it must outlast a loss of power.
+  echo force-unsafe-io > "$root/etc/dpkg/dpkg.cfg.d/unsafe-io"
   mkdir "$root/ccache" "$root/data" "$root/out" "$root/mrpt_polyloc"
   # A tracked file that is gone from the work tree is left out.
   git -c safe.directory="$project" -C "$project" ls-files -z |
