@@ -49,6 +49,7 @@ ordered_json toJson(const EvaluatedScan& scan) {
   line["truth"] = toJson(record.truth);
   line["status"] = toString(record.score.status);
   line["rank"] = record.score.right_rank;
+  line["in_ellipse"] = record.score.in_ellipse;
   line["n"] = record.hypotheses;
   line["error"] = {record.score.error_m, record.score.error_rad};
   line["ms"] = record.score.ms;
@@ -84,6 +85,7 @@ EvaluatedScan scanOf(const json& line) {
   record.truth = poseOf(line.at("truth"));
   record.score.status = statusOf(line.at("status"));
   record.score.right_rank = line.at("rank");
+  record.score.in_ellipse = line.at("in_ellipse");
   record.hypotheses = line.at("n");
   record.score.error_m = numberOf(line.at("error").at(0));
   record.score.error_rad = numberOf(line.at("error").at(1));

@@ -1,5 +1,8 @@
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/base/matrices.h>
 #include <mrpt_polyloc/evaluation/Summary.h>
+
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +39,15 @@ bool isRight(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth,
   return error.distance <= tolerance.distance && error.angle <= tolerance.angle;
 }
 
+bool isInEllipse(const mrpt::math::TPose2D& pose, const Hypothesis& hypothesis, double deviations) {
+  const mrpt::math::TPose2D& middle = hypothesis.pose_map_robot;
+  const Eigen::Vector3d off(pose.x - middle.x, pose.y - middle.y,
+                            std::remainder(pose.phi - middle.phi, kTwoPi));
+  const Eigen::LLT<Eigen::Matrix3d> covariance(toEigen(hypothesis.covariance));
+  if (covariance.info() != Eigen::Success) return false;
+  return off.dot(covariance.solve(off)) <= deviations * deviations;
+}
+
 ScanScore scoreScan(const LocalizationResult& result, const mrpt::math::TPose2D& truth,
                     const Tolerance& tolerance) {
   ScanScore score;
@@ -48,10 +60,10 @@ ScanScore scoreScan(const LocalizationResult& result, const mrpt::math::TPose2D&
       score.error_m = error.distance;
       score.error_rad = error.angle;
     }
-    if (isRight(result.hypotheses[i].pose_map_robot, truth, tolerance)) {
+    if (score.right_rank == 0 && isRight(result.hypotheses[i].pose_map_robot, truth, tolerance)) {
       score.right_rank = i + 1;
-      break;
     }
+    score.in_ellipse = score.in_ellipse || isInEllipse(truth, result.hypotheses[i]);
   }
   return score;
 }
@@ -78,7 +90,8 @@ Summary summarize(const std::vector<ScanScore>& scores, const std::vector<std::s
   summary.scans = rows->size();
   if (rows->empty()) return summary;
 
-  std::size_t top1 = 0, top5 = 0, top20 = 0, in_list = 0, unique = 0, unique_right = 0;
+  std::size_t top1 = 0, top5 = 0, top20 = 0, in_list = 0, in_ellipse = 0;
+  std::size_t unique = 0, unique_right = 0;
   std::vector<double> errors_m, errors_deg, times;
   for (const std::size_t row : *rows) {
     const ScanScore& score = scores.at(row);
@@ -93,6 +106,7 @@ Summary summarize(const std::vector<ScanScore>& scores, const std::vector<std::s
     top5 += isRightWithin(score, 5) ? 1 : 0;
     top20 += isRightWithin(score, 20) ? 1 : 0;
     in_list += score.right_rank > 0 ? 1 : 0;
+    in_ellipse += score.in_ellipse ? 1 : 0;
     if (score.status == LocalizationStatus::unique) {
       ++unique;
       unique_right += right ? 1 : 0;
@@ -106,6 +120,7 @@ Summary summarize(const std::vector<ScanScore>& scores, const std::vector<std::s
   summary.top5 = fraction(top5, rows->size());
   summary.top20 = fraction(top20, rows->size());
   summary.in_list = fraction(in_list, rows->size());
+  summary.in_ellipse = fraction(in_ellipse, rows->size());
   if (unique > 0) summary.unique_right = fraction(unique_right, unique);
   if (!errors_m.empty()) {
     summary.median_error_m = percentile(errors_m, 0.5);

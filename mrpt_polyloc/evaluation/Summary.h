@@ -23,15 +23,22 @@ struct POLYLOC_EXPORT ScanScore {
   LocalizationStatus status = LocalizationStatus::too_few_beams;
   /// Rank (from 1) of the first right hypothesis; 0 if none is right or none was given.
   std::size_t right_rank = 0;
-  double error_m = 0.0;    ///< of the first hypothesis; NaN if there is none
-  double error_rad = 0.0;  ///< of the first hypothesis; NaN if there is none
-  double ms = 0.0;         ///< search and refinement
+  double error_m = 0.0;     ///< of the first hypothesis; NaN if there is none
+  double error_rad = 0.0;   ///< of the first hypothesis; NaN if there is none
+  double ms = 0.0;          ///< search and refinement
+  bool in_ellipse = false;  ///< the truth is in some hypothesis's ellipse, see isInEllipse()
 };
 
 /// Whether a pose lies within both tolerances of the truth (inclusive), headings compared modulo
 /// 2 pi.
 POLYLOC_EXPORT bool isRight(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& truth,
                             const Tolerance& tolerance = {});
+
+/// Whether a pose lies within so many standard deviations of a hypothesis: a Mahalanobis distance
+/// over (x, y, phi), headings compared modulo 2 pi. Never where the covariance is not positive
+/// definite.
+POLYLOC_EXPORT bool isInEllipse(const mrpt::math::TPose2D& pose, const Hypothesis& hypothesis,
+                                double deviations = 3.0);
 
 /// Compares the answer to one scan with the truth, see isRight().
 POLYLOC_EXPORT ScanScore scoreScan(const LocalizationResult& result,
@@ -48,7 +55,8 @@ struct POLYLOC_EXPORT Summary {
   std::size_t scans = 0;
   double top1 = 0, top5 = 0, top20 = 0;  ///< fractions with a right pose among the first k
   double in_list = 0;                    ///< fraction with a right pose anywhere
-  std::optional<double> unique_right;    ///< of those called unique, right ones
+  double in_ellipse = 0;  ///< fraction with the truth within three deviations of a hypothesis
+  std::optional<double> unique_right;                      ///< of those called unique, right ones
   std::optional<double> median_error_m, median_error_deg;  ///< over right first answers
   double ms_median = 0, ms_p90 = 0, ms_max = 0;            ///< see percentile()
   std::array<std::size_t, 4> status{};                     ///< counts, by LocalizationStatus

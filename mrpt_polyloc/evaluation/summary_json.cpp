@@ -27,6 +27,7 @@ ordered_json summaryFigures(const Summary& summary) {
   json["top5"] = ifAny(summary.top5);
   json["top20"] = ifAny(summary.top20);
   json["in_list"] = ifAny(summary.in_list);
+  json["in_ellipse"] = ifAny(summary.in_ellipse);
   json["unique_right"] = orNull(summary.unique_right);
   json["median_error_m"] = orNull(summary.median_error_m);
   json["median_error_deg"] = orNull(summary.median_error_deg);

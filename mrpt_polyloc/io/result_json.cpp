@@ -61,6 +61,8 @@ ordered_json toJson(const LocalizationResult& result, std::size_t most_regions) 
     json["certificate"] = {{"cost", result.certificate->cost},
                            {"complete", result.certificate->is_complete},
                            {"regions", result.certificate->regions},
+                           {"least", result.certificate->least},
+                           {"at_least", result.certificate->at_least},
                            {"bounded", settled.bounded},
                            {"distant", settled.distant},
                            {"lowered", settled.lowered},

@@ -94,8 +94,8 @@ LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePr
       posesOf(found.candidates), scan, allowed, predictor,
       {options.max_hypotheses, params_.cost, params_.refinement, hypotheses}, budget));
   if (found.certified_cost) {
-    result.certificate =
-        Certificate{*found.certified_cost, found.is_complete, found.regions.size(), found.settled};
+    result.certificate = Certificate{*found.certified_cost, found.is_complete, found.regions.size(),
+                                     found.settled,         found.least_cost,  found.at_least};
   }
   // What a budget left out, or what is undecided, may be as good.
   const bool is_cut_short = !found.is_complete || found.settled.undecided > 0 || budget.isSpent();

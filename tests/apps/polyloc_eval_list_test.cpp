@@ -95,7 +95,7 @@ TEST_F(PolylocEvalList, RunsMethodsAndBaselinesOnAllSets) {
                 path("sim/truth.tum"), "--good", path("good.txt"), "-o", path("alone")});
   ASSERT_EQ(alone.code, 0) << alone.err;
   const json one = summary("alone"), listed = result["results"][0];
-  for (const char* key : {"scans", "top1", "top5", "top20", "in_list", "unique_right",
+  for (const char* key : {"scans", "top1", "top5", "top20", "in_list", "in_ellipse", "unique_right",
                           "median_error_m", "status", "map", "index_mb"}) {
     EXPECT_EQ(one[key], listed[key]) << key;
   }

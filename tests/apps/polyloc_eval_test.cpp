@@ -61,7 +61,7 @@ TEST_F(PolylocEval, SummaryHasTheKeysOfTheDesign) {
   const std::vector<std::string> figures = {
       "scans",        "top1",   "top5",      "top20",          "in_list",
       "unique_right", "status", "ms_median", "median_error_m", "median_error_deg",
-      "ms_p90",       "ms_max"};
+      "ms_p90",       "ms_max", "in_ellipse"};
   std::vector<std::string> all = figures;
   for (const char* key : {"index_build_s", "index_mb", "cold_start_s", "map", "good"})
     all.push_back(key);

@@ -71,6 +71,52 @@ TEST(ScoreScanTest, NoAnswerHasNoError) {
   EXPECT_TRUE(std::isnan(s.error_rad));
 }
 
+/// Of deviations 0.1 m along a line turned by 45 degrees, 0.01 m across it, and 0.02 rad.
+Hypothesis slanted(double x, double phi) {
+  Hypothesis hypothesis;
+  hypothesis.pose_map_robot = {x, 2.0, phi};
+  const double along = 0.01, across = 0.0001, turn = 0.0004;
+  hypothesis.covariance(0, 0) = hypothesis.covariance(1, 1) = 0.5 * (along + across);
+  hypothesis.covariance(0, 1) = hypothesis.covariance(1, 0) = 0.5 * (along - across);
+  hypothesis.covariance(2, 2) = turn;
+  return hypothesis;
+}
+
+TEST(InEllipseTest, IsAMahalanobisDistanceOfThree) {
+  const Hypothesis h = slanted(1.0, M_PI - 0.01);
+  const auto at = [&](double along, double across, double turn) {
+    const double s = std::sqrt(0.5);
+    return isInEllipse(
+        {1.0 + s * (along - across), 2.0 + s * (along + across), -M_PI - 0.01 + turn}, h);
+  };
+  EXPECT_TRUE(at(0, 0, 0));
+  EXPECT_TRUE(at(0.299, 0, 0));
+  EXPECT_FALSE(at(0.301, 0, 0));
+  EXPECT_TRUE(at(0, 0.0299, 0));
+  EXPECT_FALSE(at(0, 0.0301, 0));
+  EXPECT_TRUE(at(0, 0, 0.0599));
+  EXPECT_FALSE(at(0, 0, -0.0601));
+  EXPECT_FALSE(at(0.22, 0.022, 0));  // 3.11 in all
+  EXPECT_TRUE(isInEllipse({1.0, 2.3, M_PI - 0.01}, h, 22.0));
+  EXPECT_FALSE(isInEllipse({1.0, 2.0, M_PI - 0.01}, Hypothesis{}));  // no covariance
+}
+
+TEST(InEllipseTest, AnyHypothesisCountsWhateverIsRight) {
+  LocalizationResult result;
+  result.status = LocalizationStatus::ambiguous;
+  result.hypotheses = {slanted(1.0, 0.0), slanted(9.0, 0.0)};
+  EXPECT_TRUE(scoreScan(result, {9.0, 2.01, 0.0}).in_ellipse);
+  EXPECT_TRUE(scoreScan(result, {1.0, 2.01, 0.0}).in_ellipse);
+  // Right within the tolerance, but surer than it may be; and the other way round.
+  const ScanScore sure = scoreScan(result, {1.1, 1.9, 0.0});
+  EXPECT_EQ(sure.right_rank, 1U);
+  EXPECT_FALSE(sure.in_ellipse);
+  const ScanScore strict = scoreScan(result, {1.1, 2.1, 0.0}, {0.05, 0.05});
+  EXPECT_EQ(strict.right_rank, 0U);
+  EXPECT_TRUE(strict.in_ellipse);
+  EXPECT_FALSE(scoreScan(LocalizationResult{}, {1.0, 2.0, 0.0}).in_ellipse);
+}
+
 TEST(PercentileTest, InterpolatesBetweenOrderStatistics) {
   EXPECT_DOUBLE_EQ(percentile({3, 1, 2}, 0.5), 2.0);
   EXPECT_DOUBLE_EQ(percentile({4, 1, 3, 2}, 0.5), 2.5);
@@ -113,6 +159,10 @@ TEST(SummarizeTest, CountsRanksAndStatuses) {
   EXPECT_DOUBLE_EQ(all.top5, 3.0 / 8);
   EXPECT_DOUBLE_EQ(all.top20, 4.0 / 8);
   EXPECT_DOUBLE_EQ(all.in_list, 5.0 / 8);
+  EXPECT_DOUBLE_EQ(all.in_ellipse, 0.0);
+  std::vector<ScanScore> within = scores;
+  within[1].in_ellipse = within[2].in_ellipse = within[6].in_ellipse = true;
+  EXPECT_DOUBLE_EQ(summarize(within).in_ellipse, 2.0 / 8);  // the last of them was withdrawn
   EXPECT_THAT(all.unique_right, Optional(0.5));
   ASSERT_TRUE(all.median_error_m && all.median_error_deg);
   EXPECT_NEAR(*all.median_error_m, 0.2, 1e-12);

@@ -48,6 +48,7 @@ TEST(SummaryJsonTest, HasTheKeysInOrder) {
   all.scans = 4;
   all.top1 = 0.75;
   all.top20 = 1.0;
+  all.in_ellipse = 0.5;
   all.unique_right = 1.0;
   all.median_error_m = 0.03;
   all.median_error_deg = 0.4;
@@ -59,18 +60,19 @@ TEST(SummaryJsonTest, HasTheKeysInOrder) {
   EXPECT_EQ(text.back(), '\n');
   const ordered_json json = ordered_json::parse(text);
   EXPECT_THAT(keysOf(json),
-              ElementsAre("scans", "top1", "top5", "top20", "in_list", "unique_right",
+              ElementsAre("scans", "top1", "top5", "top20", "in_list", "in_ellipse", "unique_right",
                           "median_error_m", "median_error_deg", "ms_median", "ms_p90", "ms_max",
                           "status", "index_build_s", "index_mb", "cold_start_s", "map", "good"));
   EXPECT_THAT(keysOf(json["status"]),
               ElementsAre("unique", "ambiguous", "no_match", "too_few_beams"));
   EXPECT_THAT(
       keysOf(json["good"]),
-      ElementsAre("scans", "top1", "top5", "top20", "in_list", "unique_right", "median_error_m",
-                  "median_error_deg", "ms_median", "ms_p90", "ms_max", "status"));
+      ElementsAre("scans", "top1", "top5", "top20", "in_list", "in_ellipse", "unique_right",
+                  "median_error_m", "median_error_deg", "ms_median", "ms_p90", "ms_max", "status"));
   EXPECT_EQ(json["scans"], 4);
   EXPECT_EQ(json["good"]["scans"], 3);
   EXPECT_EQ(json["top1"], 0.75);
+  EXPECT_EQ(json["in_ellipse"], 0.5);
   EXPECT_EQ(json["ms_p90"], 12.5);
   EXPECT_EQ(json["status"]["ambiguous"], 2);
   EXPECT_EQ(json["index_mb"], 40.25);
@@ -90,7 +92,8 @@ TEST(SummaryJsonTest, WhatDoesNotExistIsNull) {
   const Summary none;
   const auto empty = ordered_json::parse(summaryJson(none, &none, {}, roomWithPillar()));
   EXPECT_EQ(empty["scans"], 0);
-  for (const char* key : {"top1", "top5", "top20", "in_list", "ms_median", "ms_p90", "ms_max"}) {
+  for (const char* key :
+       {"top1", "top5", "top20", "in_list", "in_ellipse", "ms_median", "ms_p90", "ms_max"}) {
     EXPECT_TRUE(empty[key].is_null()) << key;
     EXPECT_TRUE(empty["good"][key].is_null()) << key;
   }

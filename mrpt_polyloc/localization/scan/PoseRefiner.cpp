@@ -112,29 +112,44 @@ PoseRefiner::NormalEquations PoseRefiner::linearize(const mrpt::math::TPose2D& p
   return equations;
 }
 
+bool PoseRefiner::takeStep(const NormalEquations& equations, mrpt::math::TPose2D& pose) const {
+  // A little damping: along a corridor nothing holds the pose.
+  const Eigen::Matrix3d damped =
+      equations.matrix + 1e-3 * static_cast<double>(equations.beams) * Eigen::Matrix3d::Identity();
+  Eigen::Vector3d step = damped.ldlt().solve(equations.right);
+  constexpr double kLongestStep = 0.3, kWidestTurn = 0.1;
+  const double length = step.head<2>().norm();
+  const double shrink = std::min({1.0, kLongestStep / std::max(length, 1e-12),
+                                  kWidestTurn / std::max(std::abs(step[2]), 1e-12)});
+  step *= shrink;
+  const double c = std::cos(pose.phi), s = std::sin(pose.phi);
+  pose.x += c * step[0] - s * step[1];
+  pose.y += s * step[0] + c * step[1];
+  pose.phi += step[2];
+  return step.head<2>().norm() < params_.step_tolerance &&
+         std::abs(step[2]) < params_.turn_tolerance;
+}
+
+mrpt::math::TPose2D PoseRefiner::refinedPose(const mrpt::math::TPose2D& pose_map_beams) const {
+  mrpt::math::TPose2D pose = pose_map_beams;
+  PredictedHits predicted;
+  for (int iteration = 0; iteration < params_.max_iterations; ++iteration) {
+    const NormalEquations equations = linearize(pose, predicted);
+    if (equations.beams < 3 || takeStep(equations, pose)) break;
+  }
+  pose.normalizePhi();
+  return pose;
+}
+
 RefinedPose PoseRefiner::refine(const mrpt::math::TPose2D& start, int max_iterations) const {
   mrpt::math::TPose2D pose = start;
   PredictedHits predicted;
   NormalEquations equations = linearize(pose, predicted);
-  for (int iteration = 0; iteration < max_iterations && equations.beams >= 3; ++iteration) {
-    // A little damping: along a corridor nothing holds the pose.
-    const Eigen::Matrix3d damped = equations.matrix + 1e-3 * static_cast<double>(equations.beams) *
-                                                          Eigen::Matrix3d::Identity();
-    Eigen::Vector3d step = damped.ldlt().solve(equations.right);
-    constexpr double kLongestStep = 0.3, kWidestTurn = 0.1;
-    const double length = step.head<2>().norm();
-    const double shrink = std::min({1.0, kLongestStep / std::max(length, 1e-12),
-                                    kWidestTurn / std::max(std::abs(step[2]), 1e-12)});
-    step *= shrink;
-    const double c = std::cos(pose.phi), s = std::sin(pose.phi);
-    pose.x += c * step[0] - s * step[1];
-    pose.y += s * step[0] + c * step[1];
-    pose.phi += step[2];
+  bool is_short = false;
+  for (int iteration = 0; iteration < max_iterations && equations.beams >= 3 && !is_short;
+       ++iteration) {
+    is_short = takeStep(equations, pose);
     equations = linearize(pose, predicted);
-    if (step.head<2>().norm() < params_.step_tolerance &&
-        std::abs(step[2]) < params_.turn_tolerance) {
-      break;
-    }
   }
 
   // From the beam frame's axes to the map's.

@@ -39,6 +39,8 @@ class PoseRefiner {
               const PoseRefinerParams& params = {}, std::size_t max_beams = 0);
 
   RefinedPose refine(const mrpt::math::TPose2D& pose_map_beams) const;
+  /// Where refinement leads, without what the scan says there: a prediction less.
+  mrpt::math::TPose2D refinedPose(const mrpt::math::TPose2D& pose_map_beams) const;
   /// A pose as it is, with what the scan says there.
   RefinedPose at(const mrpt::math::TPose2D& pose_map_beams) const;
   /// One step from a pose, not taken: for those who refine several poses at once. In the beam
@@ -48,6 +50,8 @@ class PoseRefiner {
  private:
   struct NormalEquations;
   NormalEquations linearize(const mrpt::math::TPose2D& pose, PredictedHits& predicted) const;
+  /// One step down, taken. \returns whether it was a short one
+  bool takeStep(const NormalEquations& equations, mrpt::math::TPose2D& pose) const;
   RefinedPose refine(const mrpt::math::TPose2D& start, int max_iterations) const;
 
   const RangePredictor* predictor_;

@@ -33,6 +33,10 @@ struct Certificate {
   bool is_complete = true;  ///< false: a budget ended the search before the margin was reached
   std::size_t regions = 0;  ///< not excluded, each a leaf and a few degrees of heading
   SettledRegions settled;   ///< whether a cheaper pose may be in one of them
+  double least = 0.0;       ///< search cost of the best pose found [m]
+  /// Proven: no pose at all costs less [m]. A pose that is cheaper than the best found is so by
+  /// `least` - `at_least` at most. 0 where a budget ended the search.
+  double at_least = 0.0;
   /// Of a scan set: the moment of the scan that was searched, and its number among those of the
   /// moment. The certificate speaks of poses of that scan alone.
   std::size_t moment = 0, scan = 0;

@@ -109,20 +109,27 @@ CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
   }
   if (!certified) return result;  // not even the first limit was reached: nothing is proven
   result.certified_cost = query.meters(*certified);
+  result.least_cost = refined.cost();
   if (result.is_complete) {
     SettledLeaves settled =
         settleLeaves(seeds, *certified, refined.cost(), query, scorer, budget, params);
     result.settled = settled.counts;
+    if (!settled.optima.empty()) {
+      result.least_cost = std::min(result.least_cost, settled.optima.front().cost);
+    }
     result.candidates.insert(result.candidates.end(), settled.optima.begin(), settled.optima.end());
     std::stable_sort(
         result.candidates.begin(), result.candidates.end(),
         [](const PoseCandidate& a, const PoseCandidate& b) { return a.cost < b.cost; });
   }
+  unsigned least_bound = *certified;
   for (const TreeDescent::Node& leaf : seeds.leaves()) {
     if (leaf.bound > *certified) continue;
+    least_bound = std::min(least_bound, leaf.bound);
     result.regions.push_back({leaf.index, static_cast<std::uint16_t>(leaf.heading),
                               static_cast<float>(query.meters(leaf.bound))});
   }
+  if (result.is_complete) result.at_least = query.meters(least_bound);
   return result;
 }
 

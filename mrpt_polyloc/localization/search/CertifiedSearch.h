@@ -34,6 +34,9 @@ struct CertifiedSearchResult {
   std::vector<RemainingLeaf> regions;
   /// [m]; none if a budget ended the search before anything was proven, or no beam took part.
   std::optional<double> certified_cost;
+  double least_cost = 0.0;  ///< search cost of the best pose found; infinity if there is none [m]
+  /// No pose that the prior allows has a lower search cost [m]; 0 where a budget ended the search.
+  double at_least = 0.0;
   /// Whether certified_cost reaches the least search cost found plus the margin; false where a
   /// budget ended the search.
   bool is_complete = true;

@@ -28,10 +28,8 @@ PoseScorer::PoseScorer(const RangePredictor& predictor, const BandQuery& query,
                        const RobustCostParams& cost, const PoseRefinerParams& refinement)
     : metric_(query.metric),
       cost_(predictor, RangeScan(query.beams, sensor), cost),
-      refiner_(predictor, RangeScan(query.beams, sensor), refinement),
       near_refiner_(predictor, RangeScan(query.beams, sensor), nearEnough(refinement)),
       rough_refiner_(predictor, RangeScan(query.beams, sensor), rough(refinement), kRoughBeams),
-      descent_(refiner_, allowed, [this](const mrpt::math::TPose2D& pose) { return costAt(pose); }),
       near_descent_(near_refiner_, allowed,
                     [this](const mrpt::math::TPose2D& pose) { return costAt(pose); }),
       allowed_(&allowed) {}
@@ -41,13 +39,13 @@ double PoseScorer::costAt(const mrpt::math::TPose2D& pose) const {
 }
 
 double PoseScorer::costBelow(const mrpt::math::TPose2D& pose) const {
-  const std::optional<ScoredPose> found = descent_.descend(pose);
+  const std::optional<ScoredPose> found = near_descent_.descend(pose);
   return found ? found->cost : std::numeric_limits<double>::infinity();
 }
 
 std::optional<ScoredPose> PoseScorer::nearOptimum(const mrpt::math::TPose2D& pose,
                                                   double promising) const {
-  const mrpt::math::TPose2D below = rough_refiner_.refine(pose).pose_map_beams;
+  const mrpt::math::TPose2D below = rough_refiner_.refinedPose(pose);
   // What is not allowed is left to the descent, which keeps to it.
   if (!allowed_->contains(below)) return near_descent_.descend(pose);
   if (costAt(below) > promising) return std::nullopt;

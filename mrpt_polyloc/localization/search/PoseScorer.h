@@ -27,19 +27,19 @@ class PoseScorer {
 
   /// Of the pose itself [m].
   double costAt(const mrpt::math::TPose2D& pose_map_beams) const;
-  /// Of the pose that a descent from there ends in [m]; infinity if it meets none that is allowed.
+  /// Of the pose that a descent from there ends near, within a centimetre or so [m]; infinity if it
+  /// meets none that is allowed.
   double costBelow(const mrpt::math::TPose2D& pose_map_beams) const;
-  /// The pose that a descent from there ends near, within a centimetre or so, with its cost [m];
-  /// nothing if it meets none that is allowed, or if some steps with some beams lead to no cost
-  /// below `promising` [m]. Takes a fraction of the time.
+  /// That pose, with its cost [m]; nothing if it meets none that is allowed, or if some steps with
+  /// some beams lead to no cost below `promising` [m]. Takes a fraction of the time.
   std::optional<ScoredPose> nearOptimum(const mrpt::math::TPose2D& pose_map_beams,
                                         double promising) const;
 
  private:
   SearchMetric metric_;
   ScanCost cost_;
-  PoseRefiner refiner_, near_refiner_, rough_refiner_;
-  PoseDescent descent_, near_descent_;
+  PoseRefiner near_refiner_, rough_refiner_;
+  PoseDescent near_descent_;
   const AllowedPoses* allowed_;
 };
 

@@ -51,6 +51,7 @@ class SeedPoses {
   /// Where it costs that.
   mrpt::math::TPose2D pose(std::size_t i) const;
   TPoint2D middle(std::size_t i) const { return tree_.middle(leaves_[i].index); }
+  SearchTree::Bands bands(std::size_t i) const { return tree_.bands(0, leaves_[i].index); }
   double leafSize() const { return tree_.leafSize(); }
 
  private:

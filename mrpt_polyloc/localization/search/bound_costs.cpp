@@ -58,28 +58,60 @@ struct Bins {
   Bytes near_low, wall_high, gap_low, gap_high, may_be_open;
 };
 
-template <bool is_in_phase>
+/// What bounds the beam that is held against entry b of a node's arrays.
+enum class Met {
+  entry,   ///< the window that the entry is of: the beam meets bins of it alone
+  either,  ///< that one or the next
+  common   ///< what is common to both: the bin b + 1 alone, if windows are of two bins
+};
+
+/// A gap becomes what it and another exclude together: both where they overlap, else the wider one.
+POLYLOC_LANES void joinGaps(const Bytes& other_low, const Bytes& other_high, Bytes& low,
+                            Bytes& high) {
+  Bytes width = high, other_width = other_high, first_low = low, last_high = high;
+  takeMin(first_low, other_low);
+  takeMax(last_high, other_high);
+  const Bytes overlap = Bytes((low < other_high) & (other_low < high));
+  subtractSaturated(width, low);
+  subtractSaturated(other_width, other_low);
+  const Bytes is_other_wider = Bytes(other_width > width);
+  select(is_other_wider, other_low, low);
+  select(is_other_wider, other_high, high);
+  select(overlap, first_low, low);
+  select(overlap, last_high, high);
+}
+
+template <Met met>
 POLYLOC_LANES void loadBins(const SearchTree::Bands& bands, std::size_t first, Bins& bins) {
   load(bands.near_low + first, bins.near_low);
   load(bands.wall_high + first, bins.wall_high);
   load(bands.gap_low + first, bins.gap_low);
   load(bands.gap_high + first, bins.gap_high);
   bins.may_be_open = Bytes{} - (bins.gap_low & 1);
-  if (is_in_phase) return;
-  Bytes next;  // a beam may meet the next bin, too
-  load(bands.near_low + first + 1, next);
-  takeMin(bins.near_low, next);
-  load(bands.wall_high + first + 1, next);
-  takeMax(bins.wall_high, next);
-  load(bands.gap_low + first + 1, next);
-  bins.may_be_open |= Bytes{} - (next & 1);
-  takeMax(bins.gap_low, next);
-  load(bands.gap_high + first + 1, next);
-  takeMin(bins.gap_high, next);
+  if (met == Met::entry) return;
+  Bytes near_low, wall_high, gap_low, gap_high;
+  load(bands.near_low + first + 1, near_low);
+  load(bands.wall_high + first + 1, wall_high);
+  load(bands.gap_low + first + 1, gap_low);
+  load(bands.gap_high + first + 1, gap_high);
+  const Bytes may_be_open = Bytes{} - (gap_low & 1);
+  if (met == Met::either) {
+    takeMin(bins.near_low, near_low);
+    takeMax(bins.wall_high, wall_high);
+    takeMax(bins.gap_low, gap_low);
+    takeMin(bins.gap_high, gap_high);
+    bins.may_be_open |= may_be_open;
+  } else {
+    takeMax(bins.near_low, near_low);
+    takeMin(bins.wall_high, wall_high);
+    joinGaps(gap_low, gap_high, bins.gap_low, bins.gap_high);
+    bins.may_be_open &= may_be_open;
+  }
 }
 
-/// The cases of BinBand: at most one of them costs a beam anything.
-template <bool has_open, bool has_no_returns>
+/// The cases of BinBand. Of one band at most one of them costs a beam anything; where bands are
+/// joined, all of them hold, and the greatest counts.
+template <bool has_open, bool has_no_returns, Met met>
 POLYLOC_LANES void costsOf(const Bins& bins, const BandQuery& query, const BandQuery::Scaled& scan,
                            std::size_t rotated, Bytes& costs) {
   Bytes short_range, long_range;
@@ -104,24 +136,31 @@ POLYLOC_LANES void costsOf(const Bins& bins, const BandQuery& query, const BandQ
   subtractSaturated(in_gap, short_range);
   takeMin(in_gap, long_range);
   takeMin(in_gap, cap_gap);
-  costs = falls_short + beyond + in_gap;
+  if (met == Met::common) {
+    costs = falls_short;
+    takeMax(costs, beyond);
+    takeMax(costs, in_gap);
+  } else {
+    costs = falls_short + beyond + in_gap;
+  }
 }
 
-template <bool has_open, bool is_in_phase, bool has_no_returns, Summation summation>
+template <bool has_open, Met met, bool has_no_returns, Summation summation>
 POLYLOC_LANES void boundAll(const SearchTree::Bands& bands, const BandQuery& query,
                             const std::uint32_t* headings, std::size_t count, unsigned* bounds) {
+  constexpr std::size_t kShift = met == Met::common ? 1 : 0;
   const BandQuery::Scaled& scan = query.scaled[bands.scale];
   Bins bins[BandQuery::kVectors];
   for (std::size_t v = 0; v < BandQuery::kVectors; ++v) {
-    loadBins<is_in_phase>(bands, v * kLanes, bins[v]);
+    loadBins<met>(bands, v * kLanes, bins[v]);
   }
   for (std::size_t i = 0; i < count; ++i) {
     Sums<summation> sums;
     for (std::size_t v = 0; v < BandQuery::kVectors; ++v) {
-      const std::size_t rotated = v * kLanes + kBandBins - headings[i];
+      const std::size_t rotated = v * kLanes + kBandBins + kShift - headings[i];
       if (!query.informs_from[rotated]) continue;
       Bytes costs;
-      costsOf<has_open, has_no_returns>(bins[v], query, scan, rotated, costs);
+      costsOf<has_open, has_no_returns, met>(bins[v], query, scan, rotated, costs);
       if (v + 1 == BandQuery::kVectors) {
         Bytes last;
         load(kLast.mask, last);
@@ -134,20 +173,28 @@ POLYLOC_LANES void boundAll(const SearchTree::Bands& bands, const BandQuery& que
   }
 }
 
-template <bool has_open, bool is_in_phase>
+template <bool has_open, Met met>
 POLYLOC_LANES void chooseByBeams(const SearchTree::Bands& bands, const BandQuery& query,
                                  const std::uint32_t* headings, std::size_t count,
                                  unsigned* bounds) {
   constexpr auto bytes = Summation::bytes, words = Summation::words, squares = Summation::squares;
   if (query.metric == SearchMetric::polar) {
-    boundAll<has_open, is_in_phase, false, squares>(bands, query, headings, count, bounds);
+    boundAll<has_open, met, false, squares>(bands, query, headings, count, bounds);
   } else if (query.has_wide_caps) {
-    boundAll<has_open, is_in_phase, true, words>(bands, query, headings, count, bounds);
+    boundAll<has_open, met, true, words>(bands, query, headings, count, bounds);
   } else if (query.has_no_returns) {
-    boundAll<has_open, is_in_phase, true, bytes>(bands, query, headings, count, bounds);
+    boundAll<has_open, met, true, bytes>(bands, query, headings, count, bounds);
   } else {
-    boundAll<has_open, is_in_phase, false, bytes>(bands, query, headings, count, bounds);
+    boundAll<has_open, met, false, bytes>(bands, query, headings, count, bounds);
   }
+}
+
+template <Met met>
+POLYLOC_LANES void chooseByOpen(const SearchTree::Bands& bands, const BandQuery& query,
+                                const std::uint32_t* headings, std::size_t count,
+                                unsigned* bounds) {
+  bands.has_open ? chooseByBeams<true, met>(bands, query, headings, count, bounds)
+                 : chooseByBeams<false, met>(bands, query, headings, count, bounds);
 }
 
 }  // namespace
@@ -155,13 +202,15 @@ POLYLOC_LANES void chooseByBeams(const SearchTree::Bands& bands, const BandQuery
 POLYLOC_HOT_LOOP
 void boundCosts(const SearchTree::Bands& bands, const BandQuery& query,
                 const std::uint32_t* headings, std::size_t count, unsigned* bounds) {
-  if (query.is_in_phase) {
-    bands.has_open ? chooseByBeams<true, true>(bands, query, headings, count, bounds)
-                   : chooseByBeams<false, true>(bands, query, headings, count, bounds);
-  } else {
-    bands.has_open ? chooseByBeams<true, false>(bands, query, headings, count, bounds)
-                   : chooseByBeams<false, false>(bands, query, headings, count, bounds);
-  }
+  query.is_in_phase ? chooseByOpen<Met::entry>(bands, query, headings, count, bounds)
+                    : chooseByOpen<Met::either>(bands, query, headings, count, bounds);
+}
+
+POLYLOC_HOT_LOOP
+void boundCostsOfBins(const SearchTree::Bands& bands, const BandQuery& query,
+                      const std::uint32_t* headings, std::size_t count, unsigned* bounds) {
+  query.is_in_phase ? chooseByOpen<Met::common>(bands, query, headings, count, bounds)
+                    : chooseByOpen<Met::entry>(bands, query, headings, count, bounds);
 }
 
 }  // namespace mrpt_polyloc

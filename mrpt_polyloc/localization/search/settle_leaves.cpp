@@ -1,4 +1,5 @@
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/localization/search/bound_costs.h>
 #include <mrpt_polyloc/localization/search/settle_leaves.h>
 
 #include <algorithm>
@@ -174,6 +175,16 @@ bool isNear(const TPose2D& a, const TPose2D& b) {
   return std::hypot(a.x - b.x, a.y - b.y) < kNear && angleBetween(a.phi, b.phi) < kNearHeading;
 }
 
+/// A leaf's bound by the bins of its window: never less than its own.
+unsigned boundByBins(const SeedPoses& leaves, std::size_t leaf, const BandQuery& query) {
+  static_assert(kWindow == 2, "windows of leaves are of two bins");
+  const std::uint32_t first = leaves.leaves()[leaf].heading;
+  const std::uint32_t headings[] = {first, first + 1};
+  unsigned bounds[] = {0, 0};
+  boundCostsOfBins(leaves.bands(leaf), query, headings, 2, bounds);
+  return std::min(bounds[0], bounds[1]);
+}
+
 }  // namespace
 
 SettledLeaves settleLeaves(SeedPoses& leaves, unsigned limit, double least, const BandQuery& query,
@@ -193,6 +204,8 @@ SettledLeaves settleLeaves(SeedPoses& leaves, unsigned limit, double least, cons
       ++result.counts.bounded;
     } else if (leaves.costIfWorthwhile(i, within_reach) > within_reach) {
       ++result.counts.distant;
+    } else if (boundByBins(leaves, i, query) > least_units) {
+      ++result.counts.bounded;
     } else {
       basins.add(i);
     }

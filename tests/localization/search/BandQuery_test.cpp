@@ -128,6 +128,55 @@ unsigned plainBound(const RandomBands& r, const BandQuery& query, std::size_t he
   return static_cast<unsigned>(sum) << r.bands.scale;
 }
 
+/// The same of a bin that windows a and b have in common, in plain arithmetic: what both exclude.
+int plainCostOfBin(const RandomBands& r, std::size_t a, std::size_t b, const Beam& beam,
+                   const RobustCostParams& cost) {
+  const double unit = QuantizedRange::unit(r.bands.scale);
+  const auto units = [&](double meters) {
+    return std::min(static_cast<int>(std::floor(meters / unit)), QuantizedRange::kGreatest);
+  };
+  const bool may_be_open = r.bands.has_open && (r.gap_low[a] & r.gap_low[b] & 1) != 0;
+  const int wall_high = std::min(r.wall_high[a], r.wall_high[b]);
+  if (beam.kind == BeamKind::no_return) {
+    const int passed = units(cost.none_share * beam.range) - wall_high;
+    return may_be_open ? 0 : std::clamp(passed, 0, units(cost.tau_none));
+  }
+  const int below = units(beam.range);
+  const int above = std::min(static_cast<int>(std::ceil(beam.range / unit)), 255);
+  const int near_low = std::max(r.near_low[a], r.near_low[b]);
+  int low = r.gap_low[a], high = r.gap_high[a];
+  if (low < r.gap_high[b] && r.gap_low[b] < high) {
+    low = std::min<int>(low, r.gap_low[b]);
+    high = std::max<int>(high, r.gap_high[b]);
+  } else if (std::max(r.gap_high[b] - r.gap_low[b], 0) > std::max(high - low, 0)) {
+    low = r.gap_low[b];
+    high = r.gap_high[b];
+  }
+  const double cap = std::min({cost.tau_short, cost.tau_long, may_be_open ? cost.tau_open : 1e9});
+  return std::max({std::clamp(near_low - above, 0, units(cost.tau_short)),
+                   std::clamp(below - wall_high, 0, units(cost.tau_long)),
+                   std::clamp(std::min(below - low, high - above), 0, units(cap))});
+}
+
+unsigned plainBoundOfBin(const RandomBands& r, const BandQuery& query, std::size_t heading,
+                         const RobustCostParams& cost) {
+  int sum = 0;
+  for (const Beam& beam : query.beams) {
+    const std::size_t bin = binOf(beam, query, heading);
+    const std::size_t before = query.is_in_phase ? (bin + kBandBins - 1) % kBandBins : bin;
+    sum += plainCostOfBin(r, before, bin, beam, cost);
+  }
+  return static_cast<unsigned>(sum) << r.bands.scale;
+}
+
+unsigned boundOfBin(const SearchTree::Bands& bands, const BandQuery& query, std::size_t heading) {
+  const auto bin = static_cast<std::uint32_t>(heading);
+  const std::uint32_t headings[] = {bin, (bin + 31) % 180};
+  unsigned bounds[2] = {};
+  boundCostsOfBins(bands, query, headings, 2, bounds);
+  return bounds[0];
+}
+
 unsigned boundOf(const SearchTree::Bands& bands, const BandQuery& query, std::size_t heading) {
   // In the company of others, and none of them changes it.
   const auto bin = static_cast<std::uint32_t>(heading);
@@ -160,6 +209,8 @@ TEST(BandQuery, BoundsAsBeamByBeam) {
     const std::size_t heading = random() % kBandBins;
     ASSERT_EQ(query.has_wide_caps, i % 16 >= 8);
     EXPECT_EQ(boundOf(bands.bands, query, heading), plainBound(bands, query, heading, cost)) << i;
+    EXPECT_EQ(boundOfBin(bands.bands, query, heading), plainBoundOfBin(bands, query, heading, cost))
+        << i;
   }
 }
 
@@ -179,6 +230,7 @@ TEST(BandQuery, BoundsNeverExceedTheCostOfAPose) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const RobustCostParams params{1.2, 2.0, 0.6, 0.3, 0.8};
   const RobustCost cost(params);
+  std::size_t tighter = 0;
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
     const PolygonMap map = floorPlan(randomParams(random), seed);
     const Triangulation triangulation(map);
@@ -191,6 +243,15 @@ TEST(BandQuery, BoundsNeverExceedTheCostOfAPose) {
     options.short_share = 0.2;
     const TPoint2D place = randomFreePoints(map, 1, random).front();
     const BandQuery query(simulatedScan(map, {place.x, place.y, 1.0}, options), params);
+    const auto cost_at = [&](const TPoint2D& p, double phi) {
+      double sum = 0.0;
+      for (const Beam& beam : query.beams) {
+        const RayHit hit = rays.cast(p, phi + beam.bearing);
+        sum += static_cast<double>(
+            cost(beam, static_cast<float>(hit.wall), static_cast<float>(hit.open)));
+      }
+      return sum / static_cast<double>(query.beams.size());
+    };
     for (int i = 0; i < 300; ++i) {
       const std::size_t leaf = random() % tree.nodes(0).size();
       TPoint2D p = tree.middle(leaf);
@@ -202,16 +263,18 @@ TEST(BandQuery, BoundsNeverExceedTheCostOfAPose) {
       const double phi =
           query.heading(static_cast<double>(first) +
                         unit(random) * static_cast<double>(SearchTree::kWindow[level]));
-      double sum = 0.0;
-      for (const Beam& beam : query.beams) {
-        const RayHit hit = rays.cast(p, phi + beam.bearing);
-        sum += static_cast<double>(
-            cost(beam, static_cast<float>(hit.wall), static_cast<float>(hit.open)));
-      }
       EXPECT_LE(query.meters(boundOf(tree.bands(level, node), query, first)),
-                sum / static_cast<double>(query.beams.size()) + 1e-5);
+                cost_at(p, phi) + 1e-5);
+      // A bin of the leaf's window.
+      const double in_bin = query.heading(static_cast<double>(first) + unit(random));
+      const unsigned bound = boundOfBin(tree.bands(0, leaf), query, first);
+      EXPECT_LE(query.meters(bound), cost_at(p, in_bin) + 1e-5);
+      const unsigned of_window = boundOf(tree.bands(0, leaf), query, first);
+      EXPECT_GE(bound, of_window);
+      tighter += bound > of_window ? 1 : 0;
     }
   }
+  EXPECT_GT(tighter, 900U);  // of 1800
 }
 
 TEST(BandQuery, AViewCostsWhatItsRangesCost) {
