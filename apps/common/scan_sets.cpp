@@ -58,6 +58,8 @@ std::vector<LocalizedScan> localizeRows(
   }
   LastMetresParams last;
   last.length = sets.accumulate;
+  last.most_moments = sets.most_moments;
+  last.longest_step = sets.longest_step;
   std::vector<LocalizedScan> localized(rows.size());
   std::optional<Progress> progress;
   if (!on_done) progress.emplace("scan", rows.size());

@@ -16,6 +16,9 @@ namespace mrpt_polyloc::apps {
 struct SetOptions {
   double accumulate = 0.0;  ///< those of the last so many metres of the wheels' way, too [m]
   MotionNoise noise;        ///< of the wheels
+  /// Of these at most so many moments, and none from before a longer step [m]: LastMetresParams.
+  std::size_t most_moments = LastMetresParams().most_moments;
+  double longest_step = LastMetresParams().longest_step;
 
   /// Whether a row may be more than one scan.
   bool areAsked(const ScanFileOptions& file) const;

@@ -17,6 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A filter takes all moments of its drive, and rows that are some metres apart.
+constexpr std::size_t kMomentsOfFilter = 1000;
+constexpr double kStepOfFilter = 3.0;  // [m]
+
 std::string lineOf(const YAML::Node& node) {
   return "line " + std::to_string(node.Mark().line + 1);
 }
@@ -274,10 +278,16 @@ class ListReader {
   }
 
   void checkPair(const DatasetEntry& dataset, const MethodEntry& method) const {
+    const std::string place = dataset.place + ", " + method.place;
+    EvaluationOptions options;
     try {
-      optionsOf(dataset, method);
+      options = optionsOf(dataset, method);
     } catch (const std::runtime_error& error) {
-      fail(dataset.place + ", " + method.place, error.what());
+      fail(place, error.what());
+    }
+    if (dataset.simulation && options.sets.areAsked(options.search.file)) {
+      fail(place, "the method '" + method.name +
+                      "' takes more than one scan at once, and simulated ones are no drive");
     }
   }
 
@@ -303,6 +313,11 @@ EvaluationOptions optionsOf(const DatasetEntry& dataset, const MethodEntry& meth
   }
   std::reverse(arguments.begin(), arguments.end());
   cli.parse(arguments);
+  if (method.baseline && needsDrive(*method.baseline)) {
+    options.sets.accumulate = method.baseline->drive;
+    options.sets.most_moments = kMomentsOfFilter;
+    options.sets.longest_step = kStepOfFilter;
+  }
   return options;
 }
 

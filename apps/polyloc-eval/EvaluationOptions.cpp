@@ -1,16 +1,19 @@
 #include "EvaluationOptions.h"
 
 #include "../common/parsing.h"
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/simulated_odometry.h>
 #include <mrpt_polyloc/evaluation/truth.h>
 
 namespace mrpt_polyloc::apps {
 namespace {
 
-/// Gives a drive the movements that wheels would have measured along the true poses.
-void driveAlong(const std::vector<mrpt::math::TPose2D>& truth, const MotionNoise& noise,
-                std::uint64_t seed, DriveLog& drive) {
-  const std::vector<Motion> motions = simulatedOdometry(truth, noise, seed);
+/// Gives a drive without movements those that wheels would have measured along the true poses.
+void giveOdometry(const std::vector<mrpt::math::TPose2D>& truth, const MotionNoise& noise,
+                  DriveLog& drive) {
+  if (drive.has_odometry) return;
+  constexpr std::uint64_t kSeed = 1;
+  const std::vector<Motion> motions = simulatedOdometry(truth, noise, kSeed);
   for (std::size_t i = 1; i < motions.size(); ++i) {
     drive.moments[i].since_before = motions[i];
     drive.moments[i].is_after_gap = false;
@@ -50,12 +53,21 @@ EvaluationInputs loadInputs(const Program& program, const EvaluationOptions& opt
   inputs.scans =
       inputs.drive ? firstScans(*inputs.drive) : loadSearchedScans(program, options.search);
   inputs.truth = matchTruth(inputs.scans, loadTum(options.truth), options.truth);
-  if (inputs.drive && !inputs.drive->has_odometry) {
-    constexpr std::uint64_t kSeed = 1;
-    driveAlong(inputs.truth, options.sets.noise, kSeed, *inputs.drive);
-  }
+  if (inputs.drive) giveOdometry(inputs.truth, options.sets.noise, *inputs.drive);
   if (!options.good.empty()) inputs.good = loadRows(options.good, inputs.scans.size());
   return inputs;
+}
+
+DriveLog loadDriveOf(const Program& program, const EvaluationOptions& options,
+                     const std::vector<mrpt::math::TPose2D>& truth) {
+  DriveLog drive = loadSearchedDrive(program, options.search, options.sets);
+  if (drive.moments.size() != truth.size()) {
+    throw FormatError(options.search.scans, "",
+                      std::to_string(drive.moments.size()) + " moments of a drive in " +
+                          std::to_string(truth.size()) + " rows");
+  }
+  giveOdometry(truth, options.sets.noise, drive);
+  return drive;
 }
 
 ScanRecord scoreLocalized(const LocalizedScan& scan, const mrpt::math::TPose2D& truth,

@@ -29,7 +29,7 @@ void addEvaluationOptions(CLI::App& cli, EvaluationOptions& options);
 
 /// What is read before anything is searched.
 struct EvaluationInputs {
-  SetOptions sets;
+  SetOptions sets;                         ///< what `drive` is for
   std::optional<DriveLog> drive;           ///< where a row may be more than one scan
   std::vector<RangeScan> scans;            ///< of a drive the first of each moment
   std::vector<mrpt::math::TPose2D> truth;  ///< of each scan
@@ -38,6 +38,11 @@ struct EvaluationInputs {
 
 /// Of a drive without odometry the movements are made from the truth. \throws FormatError
 EvaluationInputs loadInputs(const Program& program, const EvaluationOptions& options);
+
+/// The drive that inputs were taken from, for methods that need it where `drive` is empty.
+/// \throws FormatError
+DriveLog loadDriveOf(const Program& program, const EvaluationOptions& options,
+                     const std::vector<mrpt::math::TPose2D>& truth);
 
 /// A localized scan against its truth.
 ScanRecord scoreLocalized(const LocalizedScan& scan, const mrpt::math::TPose2D& truth,

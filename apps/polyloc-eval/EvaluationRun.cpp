@@ -1,9 +1,7 @@
 #include "EvaluationRun.h"
 
 #include <mrpt_polyloc/base/errors.h>
-#include <mrpt_polyloc/evaluation/stretches.h>
 
-#include <numeric>
 #include <utility>
 
 namespace mrpt_polyloc::apps {
@@ -35,11 +33,11 @@ EvaluationRun readRun(const std::string& folder) {
     for (const EvaluatedMethod& method : run.methods) {
       jobs.push_back(readJob(jobPath(folder, dataset.name, method.name)));
     }
-    std::vector<mrpt::math::TPose2D> drive;
-    for (const auto& scan : jobs.front().scans) drive.push_back(scan.second.record.truth);
-    dataset.stretch = stretchesOf(drive);
-    if (dataset.description.at("simulated")) {  // no drive: each scan is by itself
-      std::iota(dataset.stretch.begin(), dataset.stretch.end(), std::size_t{0});
+    dataset.stretch = dataset.description.at("stretches").get<std::vector<std::size_t>>();
+    if (dataset.stretch.size() != jobs.front().scans.size()) {
+      throw FormatError(mapPath(folder, dataset.name), "",
+                        "holds " + std::to_string(dataset.stretch.size()) + " stretches for " +
+                            std::to_string(jobs.front().scans.size()) + " scans");
     }
     run.datasets.push_back(std::move(dataset));
     run.jobs.push_back(std::move(jobs));

@@ -5,6 +5,7 @@
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/evaluation/baselines/rasterize.h>
+#include <mrpt_polyloc/evaluation/stretches.h>
 #include <mrpt_polyloc/io/bitmap_files.h>
 #include <mrpt_polyloc/io/observation.h>
 #include <mrpt_polyloc/io/result_json.h>
@@ -12,6 +13,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <utility>
 
 namespace mrpt_polyloc::apps {
@@ -61,6 +63,17 @@ std::string hashOf(const EvaluationInputs& inputs) {
   return hashText(sum.value());
 }
 
+/// The stretch of the drive that each evaluated row belongs to. They are cut on all rows, for the
+/// few that are evaluated may be far apart and still of one place; simulated scans are no drive.
+std::vector<std::size_t> stretchesOfRows(const PreparedDataset& dataset, bool is_simulated) {
+  std::vector<std::size_t> stretches(dataset.rows.size());
+  std::iota(stretches.begin(), stretches.end(), std::size_t{0});
+  if (is_simulated) return stretches;
+  const std::vector<std::size_t> whole = stretchesOf(dataset.inputs.truth);
+  for (std::size_t i = 0; i < stretches.size(); ++i) stretches[i] = whole[dataset.rows[i]];
+  return stretches;
+}
+
 /// Centimetres from the box's corner, x and y in turn.
 ordered_json toCentimetres(const std::vector<TPoint2D>& points, const TPoint2D& corner) {
   ordered_json flat = ordered_json::array();
@@ -101,6 +114,7 @@ ordered_json PreparedDataset::description(const DatasetEntry& entry,
   json["statistics"] = mapStatistics(map);
   json["simulated"] = entry.simulation.has_value();
   json["good"] = inputs.good ? ordered_json(*inputs.good) : ordered_json(nullptr);
+  json["stretches"] = stretchesOfRows(*this, entry.simulation.has_value());
   json["tolerance_m"] = tolerance.distance;
   json["tolerance_deg"] = toDegrees(tolerance.angle);
   json["outline"] = outlineOf(map);

@@ -20,8 +20,9 @@ struct PreparedDataset {
   double map_s = 0.0;             ///< wall time of reading and tracing the map
   std::string inputs_hash;        ///< of scans, truth and good rows
 
-  /// What is kept of it beside the results: {statistics, simulated, good, tolerance_m,
-  /// tolerance_deg, outline: {x, y, rings, open, beyond}}; the outline in centimetres from (x, y).
+  /// What is kept of it beside the results: {statistics, simulated, good, stretches,
+  /// tolerance_m, tolerance_deg, outline: {x, y, rings, open, beyond}}; a stretch for each of
+  /// `rows`, the outline in centimetres from (x, y).
   nlohmann::ordered_json description(const DatasetEntry& entry, const Tolerance& tolerance) const;
   /// The grid that baselines search in: the map's own, or the polygons drawn into cells.
   OccupancyBitmap bitmap(const DatasetEntry& entry, double cell) const;

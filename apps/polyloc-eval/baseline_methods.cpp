@@ -2,7 +2,9 @@
 
 #include <mrpt_polyloc/evaluation/baselines/CorrelativeMatcher.h>
 #include <mrpt_polyloc/evaluation/baselines/LikelihoodLattice.h>
+#include <mrpt_polyloc/evaluation/baselines/ParticleFilterBaseline.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -12,6 +14,7 @@ namespace {
 
 constexpr const char* kLattice = "likelihood_lattice";
 constexpr const char* kCorrelative = "correlative";
+constexpr const char* kFilter = "particle_filter";
 
 LocalizationResult resultOfBaseline(const std::vector<BaselineAnswer>& answers) {
   LocalizationResult result;
@@ -60,10 +63,33 @@ ScanLocalizer makeCorrelative(const PolygonMap& map, const OccupancyBitmap& bitm
           matcher->bytes()};
 }
 
+ScanLocalizer makeFilter(const PolygonMap& map, const OccupancyBitmap& bitmap,
+                         const BaselineOptions& options) {
+  ParticleFilterBaselineParams params;
+  if (options.sigma) params.sigma = *options.sigma;
+  if (options.particles > 0) params.particles = options.particles;
+  const auto filter = std::make_shared<const ParticleFilterBaseline>(bitmap, params);
+  const auto localize = [filter](const ScanSet& drive, const PosePrior&) {
+    // Each row has random numbers of its own, the same in each run.
+    const double stamp = drive.now().scans.front().stamp();
+    const auto seed = static_cast<std::uint32_t>(std::llround(1e3 * std::abs(stamp)));
+    return resultOfBaseline(filter->localize(drive, seed));
+  };
+  return {map,
+          [localize](const RangeScan& scan, const PosePrior& prior) {
+            return localize(ScanSet(scan), prior);
+          },
+          filter->bytes(), localize};
+}
+
 }  // namespace
 
 bool isBaseline(const std::string& method) {
-  return method == kLattice || method == kCorrelative;
+  return method == kLattice || method == kCorrelative || method == kFilter;
+}
+
+bool needsDrive(const BaselineOptions& options) {
+  return options.method == kFilter;
 }
 
 void addBaselineOptions(CLI::App& cli, BaselineOptions& options) {
@@ -77,12 +103,15 @@ void addBaselineOptions(CLI::App& cli, BaselineOptions& options) {
   addCount(cli, "--headings", options.headings, 1, 10'000, "Headings of the lattice");
   addCount(cli, "--refined", options.refined, 1, 1'000'000, "Lattice poses that are aligned");
   addCount(cli, "--hits", options.hits, 1, 1'000'000, "Hits that take part");
+  addCount(cli, "--particles", options.particles, 1, 10'000'000, "Particles at first, and at most");
+  addNumber(cli, "--drive", options.drive, {0.0, 1e3}, "Metres of the drive before each row");
 }
 
 ScanLocalizer makeBaseline(const PolygonMap& map, const OccupancyBitmap& bitmap,
                            const BaselineOptions& options) {
-  return options.method == kLattice ? makeLattice(map, bitmap, options)
-                                    : makeCorrelative(map, bitmap, options);
+  if (options.method == kLattice) return makeLattice(map, bitmap, options);
+  if (options.method == kFilter) return makeFilter(map, bitmap, options);
+  return makeCorrelative(map, bitmap, options);
 }
 
 }  // namespace mrpt_polyloc::apps

@@ -15,13 +15,17 @@ struct BaselineOptions {
   std::string method;
   double cell = 0.05;  ///< of the grid that polygon maps are drawn into [m]
   std::optional<double> step, sigma;
-  std::uint64_t headings = 0, refined = 0, hits = 0;  ///< 0: the default
+  std::uint64_t headings = 0, refined = 0, hits = 0, particles = 0;  ///< 0: the default
+  double drive = 5.0;  ///< of the particle filter: so many metres before each row [m]
 };
 
-/// likelihood_lattice or correlative.
+/// likelihood_lattice, correlative or particle_filter.
 bool isBaseline(const std::string& method);
 
-/// Adds --cell, --step, --sigma, --headings, --refined and --hits.
+/// Whether a baseline takes the drive before a row, not the row's scan alone.
+bool needsDrive(const BaselineOptions& options);
+
+/// Adds --cell, --step, --sigma, --headings, --refined, --hits, --particles and --drive.
 void addBaselineOptions(CLI::App& cli, BaselineOptions& options);
 
 /// A baseline as the programs see a method. Its answers have no status: they are `ambiguous`,

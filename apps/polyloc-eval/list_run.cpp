@@ -256,8 +256,10 @@ class ListRun {
       progress_.step();
     };
     const EvaluationInputs& inputs = dataset.inputs;
-    if (inputs.drive && localizer.localize_set) {
-      localizeDrive(localizer, *inputs.drive, inputs.sets, rows, {}, options.search, on_done);
+    if (options.sets.areAsked(options.search.file) && localizer.localize_set) {
+      const DriveLog drive =
+          inputs.drive ? *inputs.drive : loadDriveOf(program_, options, inputs.truth);
+      localizeDrive(localizer, drive, options.sets, rows, {}, options.search, on_done);
     } else {
       localizeScans(localizer, inputs.scans, rows, {}, options.search, on_done);
     }

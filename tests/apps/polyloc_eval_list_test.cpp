@@ -1,10 +1,12 @@
 #include "ProgramTest.h"
+#include "driven_room.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 namespace mrpt_polyloc::test {
 namespace {
@@ -102,6 +104,47 @@ TEST_F(PolylocEvalList, RunsMethodsAndBaselinesOnAllSets) {
   EXPECT_THAT(linesOf(readFile(path("out/scans.csv"))), SizeIs(1 + 4 * 25));
   EXPECT_THAT(linesOf(estimates("out")), SizeIs(12));
   EXPECT_THAT(linesOf(readFile(path("out/estimates/files.tum"))), SizeIs(12));
+}
+
+TEST_F(PolylocEvalList, ADriveIsTakenByScanSetsAndByTheParticleFilter) {
+  const Drive drive = driveThroughRoom(30);
+  writeActionLog(path("drive.rawlog"), drive);
+  write("truth.tum", tumTruth(drive));
+  roomFile();
+  const auto listOf = [&](const std::string& name, const std::string& filter) {
+    return write(name, "datasets:\n  - {name: drive, map: room.wkt, scans: drive.rawlog, truth: " +
+                           std::string("truth.tum, every: 5}\nmethods: [certified, {name: set, ") +
+                           "method: certified, accumulate: 2}, {name: filter, method: " + filter +
+                           "}]\n");
+  };
+  const std::string file = listOf("list.yaml", "particle_filter, drive: 3, particles: 8000");
+  ASSERT_EQ(evaluate({file, "-o", path("out")}).code, 0);
+  const json result = summary("out")["results"];
+  EXPECT_EQ(result[1]["scans"], 6);
+  EXPECT_EQ(result[1]["top1"], 1.0);
+  EXPECT_GE(result[2]["top1"], 0.5);  // what it makes of its first rows is luck
+  EXPECT_EQ(result[2]["status"]["unique"], 0);
+  // A set of scans costs other than its last alone; the first row is the same scan by itself.
+  std::map<std::string, std::vector<std::string>> costs;
+  for (const std::string& line : linesOf(readFile(path("out/scans.csv")))) {
+    const std::vector<std::string> fields = fieldsOf(line);
+    costs[fields[1]].push_back(fields[9]);
+  }
+  ASSERT_THAT(costs["set"], SizeIs(6));
+  EXPECT_EQ(costs["set"].front(), costs["certified"].front());
+  EXPECT_NE(costs["set"].back(), costs["certified"].back());
+  // Threads, kills and shares change nothing.
+  ASSERT_EQ(evaluate({file, "-o", path("threads"), "--threads", "2"}).code, 0);
+  EXPECT_EQ(timeless("threads"), timeless("out"));
+  EXPECT_EQ(readFile(path("threads/estimates/drive@filter.tum")),
+            readFile(path("out/estimates/drive@filter.tum")));
+  // Without a drive it has the row's scan alone.
+  ASSERT_EQ(evaluate({listOf("alone.yaml", "particle_filter, drive: 0"), "-o", path("alone")}).code,
+            0);
+  EXPECT_LE(summary("alone")["results"][2]["top1"], result[2]["top1"]);
+  const Outcome simulated = evaluate({list("particle_filter"), "-o", path("bad")});
+  EXPECT_EQ(simulated.code, 1);
+  EXPECT_THAT(simulated.err, HasSubstr("simulated ones are no drive"));
 }
 
 TEST_F(PolylocEvalList, AKilledRunGoesOnAndCountsNothingTwice) {

@@ -1,8 +1,8 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/evaluation/baselines/LikelihoodLattice.h>
+#include <mrpt_polyloc/evaluation/baselines/mrpt_maps.h>
 
-#include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/poses/CPose2D.h>
 #include <mrpt/poses/CPosePDF.h>
@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace mrpt_polyloc {
@@ -21,27 +22,6 @@ using mrpt::maps::CSimplePointsMap;
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 using mrpt::poses::CPose2D;
-
-constexpr float kOccupied = 0.02F, kFree = 0.98F, kUnknown = 0.5F;  // probability of being free
-
-COccupancyGridMap2D gridOf(const OccupancyBitmap& bitmap, double sigma) {
-  COccupancyGridMap2D grid;
-  const auto side = static_cast<float>(bitmap.resolution);
-  grid.setSize(0.0F, static_cast<float>(bitmap.width) * side, 0.0F,
-               static_cast<float>(bitmap.height) * side, side, kUnknown);
-  for (int row = 0; row < bitmap.height; ++row) {
-    for (int column = 0; column < bitmap.width; ++column) {
-      const CellState state = bitmap.at(column, row);
-      if (state == CellState::unknown) continue;
-      grid.setCell(column, row, state == CellState::free ? kFree : kOccupied);
-    }
-  }
-  auto& likelihood = grid.likelihoodOptions;
-  likelihood.LF_decimation = 1;  // hits are thinned before
-  likelihood.LF_stdHit = static_cast<float>(sigma);
-  likelihood.LF_maxCorrsDistance = static_cast<float>(3.0 * sigma);
-  return grid;
-}
 
 /// At most so many hits of a scan, in the beam frame.
 CSimplePointsMap pointsOf(const RangeScan& scan, std::size_t most) {
@@ -55,6 +35,19 @@ CSimplePointsMap pointsOf(const RangeScan& scan, std::size_t most) {
   for (std::size_t i = 0; i < count; ++i) {
     const TPoint2D& hit = hits[i * hits.size() / count];
     points.insertPoint(static_cast<float>(hit.x), static_cast<float>(hit.y), 0.0F);
+  }
+  return points;
+}
+
+/// The middles of the occupied cells.
+CSimplePointsMap wallPointsOf(const OccupancyBitmap& bitmap) {
+  CSimplePointsMap points;
+  for (int row = 0; row < bitmap.height; ++row) {
+    for (int column = 0; column < bitmap.width; ++column) {
+      if (bitmap.at(column, row) != CellState::occupied) continue;
+      points.insertPoint(static_cast<float>((column + 0.5) * bitmap.resolution),
+                         static_cast<float>((row + 0.5) * bitmap.resolution), 0.0F);
+    }
   }
   return points;
 }
@@ -74,11 +67,16 @@ struct Weighed {
   double value = 0.0;
 };
 
+/// The larger value first; where two are alike, an order that does not hang on how they came.
+bool isBetter(const Weighed& a, const Weighed& b) {
+  return std::tie(b.value, a.pose.phi, a.pose.y, a.pose.x) <
+         std::tie(a.value, b.pose.phi, b.pose.y, b.pose.x);
+}
+
 /// The best ones, in order, of which no two are near each other.
 std::vector<Weighed> bestApart(std::vector<Weighed> poses, std::size_t most, double distance,
                                double angle) {
-  std::stable_sort(poses.begin(), poses.end(),
-                   [](const Weighed& a, const Weighed& b) { return a.value > b.value; });
+  std::sort(poses.begin(), poses.end(), isBetter);
   std::vector<Weighed> best;
   for (const Weighed& pose : poses) {
     if (best.size() == most) break;
@@ -96,6 +94,8 @@ void LikelihoodLatticeParams::check() const {
   requirePositive("step", step);
   requireInRange("headings", static_cast<double>(headings), 1.0, 10'000.0);
   requirePositive("sigma", sigma);
+  requireInRange("first_hits", static_cast<double>(first_hits), 1.0, 1e6);
+  requireInRange("weighed", static_cast<double>(weighed), 1.0, 1e9);
   requireInRange("coarse_hits", static_cast<double>(coarse_hits), 1.0, 1e6);
   requireInRange("fine_hits", static_cast<double>(fine_hits), 1.0, 1e6);
   requireInRange("refined", static_cast<double>(refined), 1.0, 1e6);
@@ -108,14 +108,21 @@ struct LikelihoodLattice::Parts {
   COccupancyGridMap2D grid;
   std::size_t cells = 0;
   std::vector<TPoint2D> positions;
-  mutable tbb::enumerable_thread_specific<std::unique_ptr<COccupancyGridMap2D>> grids;
+  CSimplePointsMap walls;  ///< the middles of the occupied cells: what hits are aligned to
+  struct Own {
+    COccupancyGridMap2D grid;
+    CSimplePointsMap walls;
+  };
+  mutable tbb::enumerable_thread_specific<std::unique_ptr<Own>> own_maps;
 
   /// The calling thread's.
-  const COccupancyGridMap2D& ownGrid() const {
-    auto& own = grids.local();
-    if (!own) own = std::make_unique<COccupancyGridMap2D>(grid);
-    return *own;
+  const Own& own() const {
+    auto& maps = own_maps.local();
+    if (!maps) maps = std::make_unique<Own>(Own{grid, walls});
+    return *maps;
   }
+
+  std::vector<Weighed> fittingBest(const COccupancyGridMap2D& field, const RangeScan& scan) const;
 };
 
 LikelihoodLattice::LikelihoodLattice(const OccupancyBitmap& bitmap,
@@ -125,9 +132,8 @@ LikelihoodLattice::LikelihoodLattice(const OccupancyBitmap& bitmap,
   parts_->params = params;
   parts_->pose_map_grid = bitmap.pose_map_bitmap;
   parts_->cells = bitmap.cells.size();
-  if (std::count(bitmap.cells.begin(), bitmap.cells.end(), CellState::occupied) == 0) {
-    throw InvalidMapError("the grid has no occupied cell");
-  }
+  parts_->grid = gridOf(bitmap, params.sigma);
+  parts_->walls = wallPointsOf(bitmap);
   const double width = bitmap.width * bitmap.resolution;
   const double height = bitmap.height * bitmap.resolution;
   for (double y = 0.5 * params.step; y < height; y += params.step) {
@@ -138,7 +144,6 @@ LikelihoodLattice::LikelihoodLattice(const OccupancyBitmap& bitmap,
     }
   }
   if (parts_->positions.empty()) throw InvalidMapError("the grid has no free cell on the lattice");
-  parts_->grid = gridOf(bitmap, params.sigma);
 }
 
 LikelihoodLattice::~LikelihoodLattice() = default;
@@ -151,32 +156,43 @@ std::size_t LikelihoodLattice::latticePositions() const {
   return parts_->positions.size();
 }
 
+/// The lattice poses that fit best: all are weighed by few hits, the best of them by more.
+std::vector<Weighed> LikelihoodLattice::Parts::fittingBest(const COccupancyGridMap2D& field,
+                                                           const RangeScan& scan) const {
+  const CSimplePointsMap few = pointsOf(scan, params.first_hits);
+  const CSimplePointsMap more = pointsOf(scan, params.coarse_hits);
+  const double turn = kTwoPi / static_cast<double>(params.headings);
+  std::vector<Weighed> lattice;
+  lattice.reserve(positions.size() * params.headings);
+  for (std::size_t h = 0; h < params.headings; ++h) {
+    for (const TPoint2D& position : positions) {
+      const TPose2D pose(position.x, position.y, turn * static_cast<double>(h));
+      lattice.push_back({pose, likelihood(field, few, pose)});
+    }
+  }
+  if (lattice.size() > params.weighed) {
+    const auto end = lattice.begin() + static_cast<std::ptrdiff_t>(params.weighed);
+    std::nth_element(lattice.begin(), end, lattice.end(), isBetter);
+    lattice.erase(end, lattice.end());
+  }
+  for (Weighed& pose : lattice) pose.value = likelihood(field, more, pose.pose);
+  return bestApart(std::move(lattice), params.refined, 1.1 * params.step, 1.1 * turn);
+}
+
 std::vector<BaselineAnswer> LikelihoodLattice::localize(const RangeScan& scan) const {
   if (scan.hitCount() == 0) return {};
   const LikelihoodLatticeParams& params = parts_->params;
-  const COccupancyGridMap2D& grid = parts_->ownGrid();
-  const CSimplePointsMap coarse = pointsOf(scan, params.coarse_hits);
+  const Parts::Own& own = parts_->own();
+  const COccupancyGridMap2D& grid = own.grid;
   const CSimplePointsMap fine = pointsOf(scan, params.fine_hits);
-
-  const double turn = kTwoPi / static_cast<double>(params.headings);
-  std::vector<Weighed> lattice;
-  lattice.reserve(parts_->positions.size() * params.headings);
-  for (std::size_t h = 0; h < params.headings; ++h) {
-    const double heading = turn * static_cast<double>(h);
-    for (const TPoint2D& position : parts_->positions) {
-      const TPose2D pose(position.x, position.y, heading);
-      lattice.push_back({pose, likelihood(grid, coarse, pose)});
-    }
-  }
 
   mrpt::slam::CICP icp;
   icp.options.thresholdDist = params.icp_distance;
   icp.options.smallestThresholdDist = 0.05;
   icp.options.skip_cov_calculation = true;
   std::vector<Weighed> aligned;
-  for (const Weighed& start :
-       bestApart(std::move(lattice), params.refined, 1.1 * params.step, 1.1 * turn)) {
-    const auto pdf = icp.Align(&grid, &fine, CPose2D(start.pose));
+  for (const Weighed& start : parts_->fittingBest(grid, scan)) {
+    const auto pdf = icp.Align(&own.walls, &fine, CPose2D(start.pose));
     const TPose2D pose = pdf->getMeanVal().asTPose();
     // An alignment that ran away is no better than its start.
     const Weighed moved{pose, likelihood(grid, fine, pose)};

@@ -11,10 +11,12 @@
 namespace mrpt_polyloc {
 
 struct LikelihoodLatticeParams {
-  double step = 0.4;             ///< between positions [m]: within reach of sigma and of the ICP
-  std::size_t headings = 36;     ///< of the circle: 10 degrees apart
-  double sigma = 0.2;            ///< LF_stdHit of the field [m]: half a step
-  std::size_t coarse_hits = 60;  ///< hits that weigh a lattice pose, spread evenly
+  double step = 0.3;             ///< between positions [m]: within reach of sigma and of the ICP
+  std::size_t headings = 48;     ///< of the circle: 7.5 degrees apart
+  double sigma = 0.15;           ///< LF_stdHit of the field [m]: half a step
+  std::size_t first_hits = 20;   ///< hits that weigh all lattice poses, spread evenly
+  std::size_t weighed = 3000;    ///< the best lattice poses, which are weighed again ...
+  std::size_t coarse_hits = 60;  ///< ... by so many hits
   std::size_t fine_hits = 180;   ///< hits that are aligned, and rank what comes out
   std::size_t refined = 30;      ///< lattice poses that are aligned
   double icp_distance = 0.6;     ///< thresholdDist of the alignment [m]: above a step's diagonal
@@ -25,8 +27,9 @@ struct LikelihoodLatticeParams {
 
 /// A baseline: what a user of MRPT gets by putting its own classes together, and what MOLA's
 /// relocalization does. Every pose of a lattice over the free cells of an occupancy grid is weighed
-/// by the likelihood field (COccupancyGridMap2D::computeLikelihoodField_Thrun), the best ones, no
-/// two of them neighbours, are aligned by mrpt::slam::CICP, and ranked by the field again.
+/// by the likelihood field (COccupancyGridMap2D::computeLikelihoodField_Thrun), by few hits and, if
+/// it is among the better ones, by more; the best ones, no two of them neighbours, are aligned to
+/// the occupied cells by mrpt::slam::CICP, and ranked by the field again.
 ///
 /// Const calls are thread-safe: each thread has a grid of its own, for MRPT's keeps a cache.
 class LikelihoodLattice {
