@@ -36,28 +36,43 @@ using mrpt::slam::CMonteCarloLocalization2D;
 constexpr double kHeapSide = 0.5;             // [m]
 constexpr double kHeapTurn = 15.0 * kDegree;  // [rad]
 constexpr std::size_t kMostHeaps = 20;
+constexpr std::size_t kMostBins = 60;  // of particles, that heaps are looked for around
 
-/// Hits of any bearings as MRPT's observation: beams every twentieth of a degree, most of which say
-/// nothing. A hit so moves by less than 0.03 degrees, half a centimetre at 10 m.
+/// A scan as MRPT's observation, whose beams are evenly spread: by the middle one of the scan's
+/// own spacings, so that beams of uneven scans move by up to half of it.
 CObservation2DRangeScan observationOf(const RangeScan& scan) {
-  constexpr std::size_t kBeams = 7200;
-  constexpr double kStep = kTwoPi / static_cast<double>(kBeams);
+  std::vector<Beam> beams;
+  for (const Beam& beam : scan.beams()) {
+    if (beam.kind != BeamKind::invalid) beams.push_back(beam);
+  }
+  const auto is_before = [](const Beam& a, const Beam& b) { return a.bearing < b.bearing; };
+  std::stable_sort(beams.begin(), beams.end(), is_before);
+  constexpr double kFinest = 0.01 * kDegree;
+  std::vector<double> spacings;
+  for (std::size_t i = 1; i < beams.size(); ++i) {
+    const double spacing = beams[i].bearing - beams[i - 1].bearing;
+    if (spacing > kFinest) spacings.push_back(spacing);
+  }
+  double step = kDegree;  // of a single beam
+  if (!spacings.empty()) {
+    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+    std::nth_element(spacings.begin(), middle, spacings.end());
+    step = *middle;
+  }
+  const double first = beams.front().bearing, span = beams.back().bearing - first;
+  const auto last = static_cast<std::size_t>(std::lround(span / step));
   CObservation2DRangeScan observation;
-  observation.aperture = static_cast<float>(kTwoPi - kStep);
+  observation.aperture = static_cast<float>(step * static_cast<double>(last));
   observation.rightToLeft = true;
   observation.maxRange = 1000.0F;
-  // Beam i looks to -pi + i steps; the middle of the aperture is half a step before 0.
   observation.sensorPose =
-      mrpt::poses::CPose3D(scan.sensor().x, scan.sensor().y, 0.0, -0.5 * kStep, 0.0, 0.0);
-  observation.resizeScanAndAssign(kBeams, 0.0F, false);
-  for (const Beam& beam : scan.beams()) {
+      mrpt::poses::CPose3D(scan.sensor().x, scan.sensor().y, 0.0,
+                           first + 0.5 * step * static_cast<double>(last), 0.0, 0.0);
+  observation.resizeScanAndAssign(last + 1, 0.0F, false);
+  for (const Beam& beam : beams) {
     if (beam.kind != BeamKind::hit) continue;
-    const double turns = (std::remainder(beam.bearing, kTwoPi) + kPi) / kStep;
-    const auto i = static_cast<std::size_t>(std::lround(turns)) % kBeams;
-    if (observation.getScanRangeValidity(i) &&
-        static_cast<double>(observation.getScanRange(i)) < beam.range) {
-      continue;  // another laser's beam of the same direction
-    }
+    const auto i =
+        std::min(last, static_cast<std::size_t>(std::lround((beam.bearing - first) / step)));
     observation.setScanRange(i, static_cast<float>(beam.range));
     observation.setScanRangeValidity(i, true);
   }
@@ -122,6 +137,7 @@ std::vector<Weighted> heapsOf(const std::vector<Weighted>& particles) {
   for (const auto& bin : bins) heaviest.push_back(bin.second);
   const auto is_heavier = [](const Weighted& a, const Weighted& b) { return a.weight > b.weight; };
   std::stable_sort(heaviest.begin(), heaviest.end(), is_heavier);
+  if (heaviest.size() > kMostBins) heaviest.resize(kMostBins);
   std::vector<Weighted> heaps;
   for (const Weighted& bin : heaviest) {
     if (heaps.size() == kMostHeaps) break;

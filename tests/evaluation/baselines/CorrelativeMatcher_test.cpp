@@ -105,6 +105,7 @@ TEST(CorrelativeMatcher, BlocksAreSearchedThatHaveACellToLookIn) {
   const OccupancyBitmap bitmap = rasterize(pillarRoom(), 0.1);
   CorrelativeMatcherParams params;
   params.levels = 4;
+  params.beyond_free = 0.35;  // no cell is exactly so far away
   const CorrelativeMatcher matcher(bitmap, params);
   for (int row = 0; row < bitmap.height; ++row) {
     for (int column = 0; column < bitmap.width; ++column) {

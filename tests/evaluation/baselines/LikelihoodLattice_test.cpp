@@ -23,7 +23,9 @@ std::vector<SimulatedScan> eightScans() {
 }
 
 TEST(LikelihoodLattice, FindsWhereScansWereTakenToCentimetres) {
-  const LikelihoodLattice lattice(rasterize(pillarRoom(), 0.05));
+  LikelihoodLatticeParams params;
+  params.step = 0.4;
+  const LikelihoodLattice lattice(rasterize(pillarRoom(), 0.05), params);
   EXPECT_NEAR(static_cast<double>(lattice.latticePositions()), pillarRoom().area() / 0.16, 20.0);
   for (const SimulatedScan& simulated : eightScans()) {
     const auto answers = lattice.localize(toRangeScan(simulated.observation));
