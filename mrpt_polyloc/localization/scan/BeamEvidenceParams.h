@@ -18,7 +18,7 @@ struct POLYLOC_EXPORT BeamEvidenceParams {
 
   /// Each point that lies on no wall costs so much [m], one on a wall nothing, with a Gaussian of
   /// the distance between: chosen with whole maps left out (doc/localization.md).
-  double off_wall_cost = 0.2;
+  double off_wall_cost = 0.15;
   double wall_sigma = 0.2;  ///< of that Gaussian [m]
   double thinning = 0.25;   ///< points in a square of this side count as one [m]
 
