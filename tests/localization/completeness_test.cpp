@@ -35,6 +35,8 @@ constexpr double kNear = 0.3, kNearHeading = 0.105;  // [m], [rad]
 struct AttackTally {
   std::size_t scans = 0, poses = 0, undecided = 0, missing = 0, unique_missing = 0;
   double worst = 0.0;  ///< by how much a missing pose was cheaper [m]
+  /// By how much the cheapest pose outside of the list costs more than the best of it [m].
+  double closest = 1e9;
 };
 
 /// Starts all over free space and beside what is listed; from the best of them down, step by step.
@@ -90,6 +92,7 @@ class ListAdversary {
       EXPECT_NE(result.status, LocalizationStatus::unique);
       return;
     }
+    tally.closest = std::min(tally.closest, best.cost - least);
     if (best.cost > least - kEqualCost) return;
     // Not by the predictor's word alone.
     if (BruteForceCost(map_, scan)(best.pose) > least - kEqualCost) return;
@@ -138,10 +141,30 @@ class ListAdversary {
   std::size_t tried_ = 0;
 };
 
-/// So many poses are tried in all by each test. POLYLOC_ADVERSARY times as many on demand.
-std::size_t scaled(std::size_t poses) {
+/// POLYLOC_ADVERSARY: so many times as many poses are tried; from 10 on, ten times as many a scan,
+/// and the rest of it in more scans.
+std::size_t timesAsMany() {
   const char* times = std::getenv("POLYLOC_ADVERSARY");
-  return poses * (times != nullptr ? std::max(1UL, std::strtoul(times, nullptr, 10)) : 1UL);
+  return times != nullptr ? std::max(1UL, std::strtoul(times, nullptr, 10)) : 1UL;
+}
+constexpr std::size_t kMostPerScan = 10;
+std::size_t scaledPoses(std::size_t poses) {
+  return poses * std::min(timesAsMany(), kMostPerScan);
+}
+std::size_t scaledScans(std::size_t scans) {
+  return scans * std::max<std::size_t>(1, timesAsMany() / kMostPerScan);
+}
+
+/// Lasers of all kinds: full circles, half ones, and beams that share no phase.
+ScanOptions ofLaser(ScanOptions options, std::size_t kind) {
+  if (kind % 3 == 1) {
+    options.field_of_view = kPi;
+    options.beams = 181;
+  } else if (kind % 3 == 2) {
+    options.field_of_view = 1.5 * kPi;
+    options.beams = 227;
+  }
+  return options;
 }
 
 SearchOptions everything() {
@@ -153,7 +176,9 @@ SearchOptions everything() {
 
 void expectTheLaw(const AttackTally& tally) {
   std::cout << tally.scans << " scans, " << tally.poses << " poses tried, " << tally.missing
-            << " cheaper ones missing, " << tally.undecided << " scans undecided\n";
+            << " cheaper ones missing, " << tally.undecided
+            << " scans undecided; the cheapest outside of a list costs " << tally.closest
+            << " m more than the best of it\n";
   EXPECT_EQ(tally.missing, 0U) << "by " << tally.worst << " m";
   EXPECT_EQ(tally.unique_missing, 0U);
   EXPECT_LE(100 * tally.undecided, tally.scans);
@@ -167,13 +192,14 @@ void attackMap(const PolygonMap& map, std::size_t scans, std::size_t poses, Scan
   ListAdversary adversary(map, seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> angle(-kPi, kPi);
-  for (const TPoint2D& p : randomFreePoints(map, scans, random)) {
+  std::size_t kind = 0;
+  for (const TPoint2D& p : randomFreePoints(map, scaledScans(scans), random)) {
     options.seed = ++seed;
-    const RangeScan scan = simulatedScan(map, {p.x, p.y, angle(random)}, options);
+    const RangeScan scan = simulatedScan(map, {p.x, p.y, angle(random)}, ofLaser(options, kind++));
     const LocalizationResult result = localizer.localize(scan, {}, everything());
     // A list without hypotheses makes no claim.
     if (result.hypotheses.empty()) continue;
-    adversary.attack(scan, result, scaled(poses), tally);
+    adversary.attack(scan, result, scaledPoses(poses), tally);
   }
 }
 
@@ -241,19 +267,33 @@ TEST(Completeness, OfRandomMaps) {
   expectTheLaw(tally);
 }
 
-TEST(Completeness, OfARealMap) {
-  POLYLOC_DATA_OR_SKIP(data);
-  const std::string folder = data + "/scans/fr079";
+void attackRealMap(const std::string& folder, std::size_t scans_of_it) {
   const PolygonMap map = loadMap(folder + "/map.yaml").map;
   const std::vector<RangeScan> scans = loadScans(folder + "/scans.rawlog");
   const GlobalLocalizer localizer(map);
   ListAdversary adversary(map, 8);
   AttackTally tally;
-  for (std::size_t row = 10; row < scans.size(); row += 40) {
+  const std::size_t step = std::max<std::size_t>(1, scans.size() / scaledScans(scans_of_it));
+  for (std::size_t row = step / 4; row < scans.size(); row += step) {
     const LocalizationResult result = localizer.localize(scans[row], {}, everything());
-    if (!result.hypotheses.empty()) adversary.attack(scans[row], result, scaled(3000), tally);
+    if (!result.hypotheses.empty()) adversary.attack(scans[row], result, scaledPoses(3000), tally);
   }
   expectTheLaw(tally);
+}
+
+TEST(Completeness, OfARealMap) {
+  POLYLOC_DATA_OR_SKIP(data);
+  attackRealMap(data + "/scans/fr079", 7);
+}
+
+TEST(Completeness, OfMoreRealMaps) {
+  POLYLOC_DATA_OR_SKIP(data);
+  std::vector<std::string> sets{"locdemo", "gh25_sim"};
+  if (timesAsMany() > 1) sets.insert(sets.end(), {"intel", "csail", "aces", "malaga_fac"});
+  for (const std::string& set : sets) {
+    SCOPED_TRACE(set);
+    attackRealMap(data + "/scans/" + set, 3);
+  }
 }
 
 TEST(Completeness, EveryRegionIsCountedOnce) {
