@@ -191,7 +191,9 @@ void SearchTree::storeBands(const NodeBands& bands, std::size_t level, std::size
                                            : QuantizedRange::kGreatest;
     gap_low[b] = withOpenBit(low, band.may_be_open);
     gap_high[b] = band.hasGap() ? QuantizedRange::down(lessened(band.gap_high), n.scale) : 0;
-    if (gap_high[b] <= gap_low[b]) gap_high[b] = 0;
+    // What begins beyond the greatest byte is no gap: rounded to an even byte, it would begin
+    // below.
+    if (gap_high[b] <= gap_low[b] || low == QuantizedRange::kGreatest) gap_high[b] = 0;
   }
   for (std::size_t array = 0; array < kArrays; ++array) repeat(near_low + array * kStride);
 }

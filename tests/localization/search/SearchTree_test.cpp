@@ -84,6 +84,42 @@ TEST(SearchTree, EveryNodeHoldsWhatIsSeenFromItsCellsOverItsWindow) {
   EXPECT_GT(gaps, 300U);
 }
 
+TEST(SearchTree, TellsNoGapThatBeginsBeyondTheGreatestByte) {
+  // A room, told in the finest unit, with a door to a corridor. Of a bin that looks along its upper
+  // wall the ranges go on to where the wall ends, at 8.2 m, and from there to the back of a niche:
+  // the gap between begins beyond 7.97 m, the greatest byte, and 7.95 m lies on the wall.
+  const TreeOfMap built(mapOf({{-3, -3},
+                               {3, -3},
+                               {3, 0},
+                               {20, 0},
+                               {20, 3.6},
+                               {8.2, 3.6},
+                               {8.2, 0.6},
+                               {3, 0.6},
+                               {3, 3},
+                               {-3, 3}}));
+  const SearchTree& tree = built.tree;
+  std::mt19937 random(15);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::size_t near_the_limit = 0;
+  for (std::size_t leaf = 0; leaf < tree.nodes(0).size(); ++leaf) {
+    const SearchTree::Bands bands = tree.bands(0, leaf);
+    const TPoint2D p = tree.middle(leaf);
+    if (bands.scale != 0 || std::hypot(p.x, p.y) > 2.0) continue;
+    for (std::size_t bin = 0; bin < 5; ++bin) {
+      for (int i = 0; i < 200; ++i) {
+        const double angle = (static_cast<double>(bin) + unit(random)) * kBandBinWidth;
+        const double wall = built.rays.cast(p, angle).wall / QuantizedRange::kFinestUnit;
+        if (wall < 254.1 || wall > 254.9) continue;
+        ++near_the_limit;
+        EXPECT_FALSE(wall > bands.gap_low[bin] && wall < bands.gap_high[bin])
+            << p.x << " " << p.y << ", bin " << bin;
+      }
+    }
+  }
+  EXPECT_GT(near_the_limit, 20U);
+}
+
 TEST(SearchTree, EveryLevelHoldsEveryCellOnce) {
   std::mt19937 random(12);
   const TreeOfMap built(floorPlan(randomParams(random), 2));
