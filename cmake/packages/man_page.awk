@@ -2,7 +2,8 @@
 #   PROGRAM --help | awk -v name=PROGRAM -v version=V -v date=D -f man_page.awk > PROGRAM.1
 # The lines before `Usage:` are the description, the first one also the name's; `Positionals:` and
 # `Options:` hold terms, two spaces in, with their text from column 36 on; what follows is printed
-# as it is.
+# as it is. CLI11 from 2.5 on has no word `Usage:`, writes headings in capitals, wraps paragraphs
+# and leaves blanks at the ends of lines.
 
 function roff(text) {
   gsub(/\\/, "\\e", text)
@@ -21,17 +22,19 @@ function print_term(term, text) {
 
 BEGIN { part = "description" }
 
-/^Usage: / {
+{ sub(/ +$/, "") }
+part == "description" && (/^Usage: / || index($0 " ", name " ") == 1) {
   usage = $0
   sub(/^Usage: /, "", usage)
   part = "usage"
   next
 }
-/^Positionals:$/ || /^Options:$/ || /^Subcommands:$/ {
+toupper($0) ~ /^(POSITIONALS|OPTIONS|SUBCOMMANDS):$/ {
   part = "terms"
   terms = terms toupper(substr($0, 1, length($0) - 1)) "\n"
   next
 }
+part == "description" && $0 == "" { next }
 part == "description" { description[++described] = $0; next }
 /^$/ { if (part == "terms") part = "between"; next }
 part == "terms" { terms = terms $0 "\n"; next }
@@ -42,7 +45,9 @@ END {
     print "man_page.awk: " name " --help has no description and usage" > "/dev/stderr"
     exit 1
   }
+  # A wrapped first sentence is one line again.
   brief = description[1]
+  while (brief !~ /\.$/ && first < described - 1) brief = brief " " description[++first + 1]
   sub(/\.$/, "", brief)
   print ".TH " toupper(roff(name)) " 1 \"" date "\" \"mrpt_polyloc " version "\" \"User Commands\""
   print ".SH NAME\n" roff(name) " \\- " roff(tolower(substr(brief, 1, 1)) substr(brief, 2))
@@ -58,6 +63,7 @@ END {
       print roff(line[i])
     } else {
       sub(/^ +/, "", line[i])
+      if (line[i] ~ /^-[A-Za-z], +--/) sub(/, +/, ",", line[i])
       at = match(line[i], /   */)
       print_term(at ? substr(line[i], 1, at - 1) : line[i],
                  at ? substr(line[i], at + RLENGTH) : "")
