@@ -16,9 +16,9 @@ namespace mrpt_polyloc {
 POLYLOC_EXPORT nlohmann::ordered_json toJson(const Hypothesis& hypothesis);
 
 /// {status, match, listed, hypotheses, certificate, statistics}: certificate {cost, complete,
-/// regions} or null; statistics {evaluated, refined, search_ms, refinement_ms}. If regions were
-/// kept also `regions`, the `most_regions` of least bound: {polygon: [[x, y], ...], first_heading,
-/// last_heading, bound}.
+/// regions, least, at_least, and what became of them (SettledRegions)} or null; statistics
+/// {evaluated, refined, search_ms, refinement_ms}. If regions were kept also `regions`, the
+/// `most_regions` of least bound: {polygon: [[x, y], ...], first_heading, last_heading, bound}.
 POLYLOC_EXPORT nlohmann::ordered_json toJson(const LocalizationResult& result,
                                              std::size_t most_regions = 5000);
 

@@ -357,6 +357,7 @@ TEST(Completeness, ABudgetThatEndsTheSearchLeavesUndecidedRegionsAndIsNeverUniqu
     if (!result.certificate) continue;
     ++certified;
     EXPECT_FALSE(result.certificate->is_complete);
+    EXPECT_EQ(result.certificate->at_least, 0.0);
     EXPECT_GT(result.certificate->settled.undecided, 0U) << nodes;
     EXPECT_FALSE(result.certificate->isDecided());
   }

@@ -10,13 +10,14 @@ namespace mrpt_polyloc {
 /// What became of the regions that the search could not exclude: whether one of them may hold a
 /// pose with a lower search cost than the best that is known. Each region counts once.
 struct SettledRegions {
-  /// Their own bound is above the least search cost known: proven.
+  /// No pose of them costs as little as the best that is known: proven, by the bound of the region
+  /// or those of its two bins of heading.
   std::size_t bounded = 0;
   /// What costs least of the poses tried in them costs so much more than the best that no descent
   /// has been seen to lead from there to as little (CertifiedSearchParams::reach): measured.
   std::size_t distant = 0;
-  /// Lowered to their optimum, which is a hypothesis unless it costs more than the certificate's
-  /// cost.
+  /// From the cheapest pose tried in them, which costs less than those tried in all regions beside,
+  /// a descent was made; its end is a candidate unless it costs more than the certificate's cost.
   std::size_t lowered = 0;
   /// Beside a cheaper region, and that perhaps beside a cheaper one, down to one that is lowered.
   std::size_t drained = 0;
@@ -34,8 +35,8 @@ struct Certificate {
   std::size_t regions = 0;  ///< not excluded, each a leaf and a few degrees of heading
   SettledRegions settled;   ///< whether a cheaper pose may be in one of them
   double least = 0.0;       ///< search cost of the best pose found [m]
-  /// Proven: no pose at all costs less [m]. A pose that is cheaper than the best found is so by
-  /// `least` - `at_least` at most. 0 where a budget ended the search.
+  /// Proven: no pose with its sensor in free space costs less [m]. A pose that is cheaper than the
+  /// best found is so by `least` - `at_least` at most. 0 where a budget ended the search.
   double at_least = 0.0;
   /// Of a scan set: the moment of the scan that was searched, and its number among those of the
   /// moment. The certificate speaks of poses of that scan alone.

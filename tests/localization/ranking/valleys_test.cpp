@@ -80,6 +80,19 @@ TEST(Valleys, ACorridorIsTwoLongHypothesesOneForEachWay) {
     EXPECT_LE(result.hypotheses.size(), 12U);  // at the ends the scan sees more
     EXPECT_NEAR(result.listed, 1.0, 1e-9);
     EXPECT_NEAR(sumOfWeights(result), result.listed, 1e-9);
+    // Scores still are what the weights follow from.
+    for (const Hypothesis& h : result.hypotheses) {
+      if (h.weight < 1e-12) continue;
+      EXPECT_NEAR(h.weight,
+                  result.hypotheses[0].weight * std::exp(-Calibration{}.weight_decay * h.z_score),
+                  1e-9);
+    }
+    // A valley is whole, however few are asked for.
+    SearchOptions many;
+    many.max_hypotheses = 10000;
+    const Hypothesis whole = localizer.localize(scan, {}, many).hypotheses[0];
+    EXPECT_EQ(whole.pose_map_robot, result.hypotheses[0].pose_map_robot);
+    EXPECT_NEAR(longestDeviation(whole), longestDeviation(result.hypotheses[0]), 0.05);
     std::vector<Hypothesis> by_weight = result.hypotheses;
     std::sort(by_weight.begin(), by_weight.end(),
               [](const Hypothesis& a, const Hypothesis& b) { return a.weight > b.weight; });
@@ -128,6 +141,85 @@ TEST(Valleys, OfARoomThereAreNone) {
   }
 }
 
+/// Each rule by itself: poses with an information and a cost of their own, in a room.
+class ValleyRules : public testing::Test {
+ protected:
+  ValleyRules()
+      : map_(squareMap()),
+        triangulation_(map_),
+        predictor_(triangulation_),
+        cost_(predictor_, simulatedScan(map_, {5.0, 5.0, 0.0}), RobustCostParams{}),
+        sectors_(cost_.beams()) {}
+
+  /// Known to 1 cm but along x, where the information is `along` [1/m^2]; the way between two such
+  /// is level, whatever lies on it.
+  static ScoredPose longAlongX(const TPose2D& pose, double along = 0.0, double cost = 10.0) {
+    ScoredPose scored;
+    scored.refined.pose_map_beams = pose;
+    scored.refined.information = fromEigen(Eigen::Vector3d(along, 1e4, 1e4).asDiagonal());
+    scored.refined.used_beams = 1;
+    scored.cost = cost;
+    return scored;
+  }
+  static ScoredPose longAlongY(const TPose2D& pose) {
+    ScoredPose scored = longAlongX(pose);
+    scored.refined.information = fromEigen(Eigen::Vector3d(1e4, 0.0, 1e4).asDiagonal());
+    return scored;
+  }
+  bool isOne(const ScoredPose& a, const ScoredPose& b) const {
+    const std::vector<std::size_t> valley = valleysOf({a, b}, cost_, sectors_);
+    EXPECT_EQ(valley, valleysOf({b, a}, cost_, sectors_));
+    EXPECT_EQ(valley[0], 0U);
+    return valley[1] == 0;
+  }
+
+  PolygonMap map_;
+  Triangulation triangulation_;
+  RangePredictor predictor_;
+  ScanCost cost_;
+  BeamSectors sectors_;
+};
+
+TEST_F(ValleyRules, BothMustBeUncertainByAQuarterOfAMetre) {
+  const ScoredPose one = longAlongX({4.0, 5.0, 0.0});
+  // What nothing holds has a deviation of half a metre: 4 / m^2 more information.
+  EXPECT_TRUE(isOne(one, longAlongX({5.0, 5.0, 0.0}, 11.9)));
+  EXPECT_FALSE(isOne(one, longAlongX({5.0, 5.0, 0.0}, 12.1)));
+}
+
+TEST_F(ValleyRules, BothMustLieOnTheLineAlongWhichTheyAreUncertain) {
+  const ScoredPose one = longAlongX({4.0, 5.0, 0.0});
+  EXPECT_TRUE(isOne(one, longAlongX({4.8, 5.19, 0.0})));
+  EXPECT_FALSE(isOne(one, longAlongX({4.8, 5.21, 0.0})));
+  EXPECT_FALSE(isOne(one, longAlongY({4.8, 5.0, 0.0})));
+  EXPECT_FALSE(isOne(one, longAlongY({4.0, 5.8, 0.0})));
+}
+
+TEST_F(ValleyRules, TheyLookTheSameWayAndStandBesideEachOther) {
+  const ScoredPose one = longAlongX({4.0, 5.0, 0.03});
+  EXPECT_TRUE(isOne(one, longAlongX({5.0, 5.0, -0.039})));
+  EXPECT_FALSE(isOne(one, longAlongX({5.0, 5.0, -0.041})));
+  EXPECT_FALSE(isOne(one, longAlongX({5.0, 5.0, 0.03 + kPi})));
+  EXPECT_TRUE(isOne(one, longAlongX({5.49, 5.0, 0.03})));
+  EXPECT_FALSE(isOne(one, longAlongX({5.51, 5.0, 0.03})));
+  // But for those between them.
+  EXPECT_EQ(
+      valleysOf({one, longAlongX({6.4, 5.0, 0.03}), longAlongX({5.2, 5.0, 0.03})}, cost_, sectors_),
+      (std::vector<std::size_t>{0, 0, 0}));
+}
+
+TEST_F(ValleyRules, TheWayBetweenRisesByNoMoreThanACentimetre) {
+  // A metre in four steps: up to 0.75 m from where the scan was taken, which is the dearest.
+  const double between = cost_.mean({5.75, 5.0, 0.0});
+  ASSERT_GT(between, cost_.mean({5.5, 5.0, 0.0}));
+  const auto isOneAt = [&](double below) {
+    return isOne(longAlongX({5.0, 5.0, 0.0}, 0.0, between - below - 0.1),
+                 longAlongX({6.0, 5.0, 0.0}, 0.0, between - below));
+  };
+  EXPECT_TRUE(isOneAt(0.009));
+  EXPECT_FALSE(isOneAt(0.011));
+}
+
 Hypothesis hypothesisAt(double x, double weight) {
   Hypothesis hypothesis;
   hypothesis.pose_map_robot = {x, 0.0, 0.0};
@@ -150,6 +242,14 @@ TEST(Valleys, UnitedHypothesesHaveTheMomentsOfTheirMixture) {
   EXPECT_NEAR(result[0].covariance(1, 1), 0.01, 1e-12);
   EXPECT_EQ(result[1].pose_map_robot.x, 7.0);
   EXPECT_EQ(result[1].weight, 0.3);
+}
+
+TEST(Valleys, TheHeaviestIsFirstOnceUnited) {
+  const std::vector<Hypothesis> result =
+      uniteValleys({hypothesisAt(1, 0.4), hypothesisAt(7, 0.3), hypothesisAt(8, 0.3)}, {0, 1, 1});
+  ASSERT_EQ(result.size(), 2U);
+  EXPECT_NEAR(result[0].weight, 0.6, 1e-12);
+  EXPECT_EQ(result[1].weight, 0.4);
 }
 
 }  // namespace

@@ -79,6 +79,7 @@ TEST(CertifiedSearch, RegionsHoldEveryPoseUpToTheCertifiedCost) {
       const double share = near ? (bin + 4.0 * (unit(random) - 0.5)) / kBandBins : unit(random);
       const HeldPose held =
           poseIn(built.tree, search.query, leaf, share - std::floor(share), random);
+      EXPECT_GE(cost(held.pose_map_beams), found.at_least - 1e-5);
       if (cost(held.pose_map_beams) > *found.certified_cost - 1e-3) continue;
       ++below;
       EXPECT_EQ(regions.count({static_cast<std::uint32_t>(held.leaf), held.heading}), 1U);
@@ -110,6 +111,9 @@ TEST(CertifiedSearch, ProvesTheMarginAboveTheLeastCostAndOffersTheBestFirst) {
     }
     ASSERT_TRUE(found.certified_cost);
     EXPECT_GE(*found.certified_cost, least * (1.0 + params.margin_share) + params.margin - 1e-3);
+    EXPECT_LE(found.least_cost, least + 1e-3);
+    EXPECT_LT(found.at_least, found.least_cost);
+    EXPECT_GT(found.at_least, 0.0);  // a tenth of the beams end early
     // From one of them refinement comes to the truth, or to what explains the scan better.
     const double at_truth = search.scorer.costBelow(truth);
     EXPECT_LE(least, at_truth + 1e-3);

@@ -166,6 +166,10 @@ void expectSettledAsByPairs(Remaining& r) {
     if (i > 0) {
       EXPECT_GE(settled.optima[i].cost, settled.optima[i - 1].cost);
     }
+    for (std::size_t k = 0; k < i; ++k) {  // none twice
+      const TPose2D &a = settled.optima[i].pose_map_beams, &b = settled.optima[k].pose_map_beams;
+      EXPECT_FALSE(distanceBetween(a, b) < 0.049 && turnBetween(a, b) < 0.019);
+    }
   }
 }
 
