@@ -25,7 +25,7 @@ mrpt::obs::CObservation2DRangeScan observationOf(const RangeScan& scan, double s
                                                  const std::string& file, std::size_t row);
 
 /// An occupancy grid by MRPT: the scans of these rows inserted at their poses into a
-/// COccupancyGridMap2D (up to 80 m, certainty 0.6), occupied above 0.65, free below 0.196. \throws
+/// COccupancyGridMap2D (up to 80 m, certainty 0.6), occupied above 0.65, free below 0.25. \throws
 /// FormatError(file) if no cell comes out free
 OccupancyBitmap mapOf(const PosedScans& drive, const std::vector<std::size_t>& rows,
                       double resolution, const std::string& file);
