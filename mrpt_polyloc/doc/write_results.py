@@ -73,6 +73,9 @@ def groups_of(results):
         groups.setdefault((entry["dataset"].split("-")[0], entry["method"]), []).append(entry)
     text = ""
     for (name, method), entries in groups.items():
+        if len(entries) == 1:  # no plans: a set of its own
+            text += line_of(entries[0], entries[0]["dataset"])
+            continue
         scans = sum(entry["scans"] for entry in entries)
         unique = sum(entry["status"]["unique"] for entry in entries)
         right = sum(entry["status"]["unique"] * (entry["unique_right"] or 0) for entry in entries)
