@@ -2,6 +2,7 @@
 #include <mrpt_polyloc/geometry/bitmap_cleaning.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <utility>
 #include <vector>
@@ -13,16 +14,6 @@ namespace {
 struct Offset {
   int x, y;
 };
-
-int countAround(const OccupancyBitmap& bitmap, int column, int row, CellState state) {
-  int count = 0;
-  for (int y = row - 1; y <= row + 1; ++y) {
-    for (int x = column - 1; x <= column + 1; ++x) {
-      count += (x != column || y != row) && bitmap.at(x, y) == state;
-    }
-  }
-  return count;
-}
 
 /// Whether the line from the centre of one cell to that of another passes through the cell at the
 /// origin, which is neither of them.
@@ -50,19 +41,31 @@ bool bridgesGap(const OccupancyBitmap& bitmap, int column, int row, int gap) {
   return false;
 }
 
+/// How many cells of a row, and of those below and above it, are free, by column + 1; outside none.
+void countFree(const OccupancyBitmap& bitmap, int row, std::vector<std::uint8_t>& columns) {
+  const auto width = static_cast<std::size_t>(bitmap.width);
+  columns.assign(width + 2, 0);
+  std::uint8_t* __restrict__ const counts = columns.data() + 1;
+  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, bitmap.height - 1); ++y) {
+    const CellState* __restrict__ const cells = &bitmap.cells[static_cast<std::size_t>(y) * width];
+    for (std::size_t x = 0; x < width; ++x) counts[x] += cells[x] == CellState::free ? 1 : 0;
+  }
+}
+
 /// Gives every unknown cell with a free neighbour for which the test holds a new state. All tests
 /// come before the first change.
 template <class Test>
 void changeRim(OccupancyBitmap& bitmap, CellState state, Test&& test) {
+  const auto width = static_cast<std::size_t>(bitmap.width);
   std::vector<std::size_t> changed;
+  std::vector<std::uint8_t> free;
   for (int row = 0; row < bitmap.height; ++row) {
-    for (int column = 0; column < bitmap.width; ++column) {
-      if (bitmap.at(column, row) != CellState::unknown) continue;
-      const int free_neighbours = countAround(bitmap, column, row, CellState::free);
-      if (free_neighbours > 0 && test(column, row, free_neighbours)) {
-        changed.push_back(static_cast<std::size_t>(row) * static_cast<std::size_t>(bitmap.width) +
-                          static_cast<std::size_t>(column));
-      }
+    countFree(bitmap, row, free);
+    const std::size_t first = static_cast<std::size_t>(row) * width;
+    for (std::size_t column = 0; column < width; ++column) {
+      const int free_neighbours = free[column] + free[column + 1] + free[column + 2];
+      if (free_neighbours == 0 || bitmap.cells[first + column] != CellState::unknown) continue;
+      if (test(static_cast<int>(column), row, free_neighbours)) changed.push_back(first + column);
     }
   }
   for (const std::size_t cell : changed) bitmap.cells[cell] = state;

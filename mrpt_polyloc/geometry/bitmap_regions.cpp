@@ -1,16 +1,14 @@
 #include <mrpt_polyloc/geometry/bitmap_regions.h>
+#include <mrpt_polyloc/geometry/bitmap_runs.h>
 
 #include <algorithm>
-#include <utility>
+#include <vector>
 
 namespace mrpt_polyloc {
 namespace {
 
 /// While labelling, a free cell that has no component yet.
 constexpr std::int32_t kFree = 0;
-/// While filling, an unknown cell that was looked at.
-constexpr std::int32_t kSeenUnknown = -3;
-
 void copyStates(const OccupancyBitmap& bitmap, RegionGrid& grid) {
   const CellState* cell = bitmap.cells.data();
   for (int y = 0; y < grid.height(); ++y) {
@@ -22,96 +20,35 @@ void copyStates(const OccupancyBitmap& bitmap, RegionGrid& grid) {
   }
 }
 
-using Cell = std::pair<int, int>;
-
-/// Marks the patch of unknown cells around `start` as seen and collects it. Returns whether it
-/// touches free cells alone; a patch at the rim touches the unknown cells outside.
-bool collectUnknownPatch(RegionGrid& grid, Cell start, std::vector<Cell>& patch) {
-  bool only_free = true;
-  patch.assign(1, start);
-  grid.row(start.second)[start.first] = kSeenUnknown;
-  for (std::size_t next = 0; next < patch.size(); ++next) {
-    const auto [x, y] = patch[next];
-    for (int ny = y - 1; ny <= y + 1; ++ny) {
-      for (int nx = x - 1; nx <= x + 1; ++nx) {
-        if (nx < 0 || ny < 0 || nx >= grid.width() || ny >= grid.height()) {
-          only_free = false;
-          continue;
-        }
-        std::int32_t& neighbor = grid.row(ny)[nx];
-        if (neighbor == RegionGrid::kOccupied) only_free = false;
-        if (neighbor != RegionGrid::kUnknown) continue;
-        neighbor = kSeenUnknown;
-        patch.emplace_back(nx, ny);
-      }
-    }
-  }
-  return only_free;
+/// Whether a run of unknown cells, and so those of its patch that lie beside it, touches nothing
+/// but free cells; at the rim it touches the unknown cells outside.
+bool touchesFreeAlone(const RegionGrid& grid, const CellRun& run) {
+  if (run.row == 0 || run.row + 1 == grid.height()) return false;
+  if (run.begin == 0 || run.end == grid.width()) return false;
+  const auto has_occupied = [&run](const std::int32_t* row) {
+    return std::find(row + run.begin - 1, row + run.end + 1, RegionGrid::kOccupied) !=
+           row + run.end + 1;
+  };
+  return !has_occupied(grid.row(run.row - 1)) && !has_occupied(grid.row(run.row)) &&
+         !has_occupied(grid.row(run.row + 1));
 }
 
 void fillUnknownPatches(RegionGrid& grid, double max_cells) {
-  std::vector<Cell> patch;
-  for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x) {
-      if (grid.row(y)[x] != RegionGrid::kUnknown) continue;
-      const bool fill = collectUnknownPatch(grid, {x, y}, patch) &&
-                        static_cast<double>(patch.size()) <= max_cells;
-      if (!fill) continue;
-      for (const auto& [px, py] : patch) grid.row(py)[px] = kFree;
-    }
+  const RunComponents patches(grid, RegionGrid::kUnknown, Connectivity::by_sides_and_corners);
+  std::vector<char> is_filled;
+  for (const std::size_t cells : patches.sizes()) {
+    is_filled.push_back(static_cast<double>(cells) <= max_cells ? 1 : 0);
   }
-  for (int y = 0; y < grid.height(); ++y) {
-    std::int32_t* const row = grid.row(y);
-    std::replace(row, row + grid.width(), kSeenUnknown, RegionGrid::kUnknown);
+  const std::vector<CellRun>& runs = patches.runs();
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    char& filled = is_filled[patches.component(i)];
+    if (filled != 0 && !touchesFreeAlone(grid, runs[i])) filled = 0;
   }
-}
-
-/// Union-find over provisional labels; the root of a set is its smallest label, hence the one of
-/// its first cell.
-class LabelSets {
- public:
-  std::int32_t add() {
-    parent_.push_back(static_cast<std::int32_t>(parent_.size()));
-    return parent_.back();
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (is_filled[patches.component(i)] == 0) continue;
+    std::int32_t* const row = grid.row(runs[i].row);
+    std::fill(row + runs[i].begin, row + runs[i].end, kFree);
   }
-  std::int32_t root(std::int32_t label) {
-    while (at(label) != label) {
-      at(label) = at(at(label));
-      label = at(label);
-    }
-    return label;
-  }
-  std::int32_t join(std::int32_t a, std::int32_t b) {
-    a = root(a);
-    b = root(b);
-    if (a > b) std::swap(a, b);
-    at(b) = a;
-    return a;
-  }
-  std::size_t size() const { return parent_.size(); }
-
- private:
-  std::int32_t& at(std::int32_t label) { return parent_[static_cast<std::size_t>(label)]; }
-
-  std::vector<std::int32_t> parent_;
-};
-
-LabelSets labelProvisionally(RegionGrid& grid) {
-  LabelSets sets;
-  for (int y = 0; y < grid.height(); ++y) {
-    std::int32_t* const row = grid.row(y);
-    const std::int32_t* const below = grid.row(y - 1);
-    for (int x = 0; x < grid.width(); ++x) {
-      if (row[x] != kFree) continue;
-      if (row[x - 1] >= 0) {
-        row[x] = row[x - 1];
-        if (below[x] >= 0 && below[x] != row[x]) sets.join(below[x], row[x]);
-      } else {
-        row[x] = below[x] >= 0 ? below[x] : sets.add();
-      }
-    }
-  }
-  return sets;
 }
 
 }  // namespace
@@ -127,34 +64,18 @@ RegionGrid labelRegions(const OccupancyBitmap& bitmap, double min_component_cell
   RegionGrid grid(bitmap.width, bitmap.height);
   copyStates(bitmap, grid);
   if (max_filled_cells >= 1.0) fillUnknownPatches(grid, max_filled_cells);
-  LabelSets sets = labelProvisionally(grid);
-
-  const auto forEachFreeCell = [&grid](auto&& visit) {
-    for (int y = 0; y < grid.height(); ++y) {
-      std::int32_t* const row = grid.row(y);
-      for (int x = 0; x < grid.width(); ++x) {
-        if (row[x] >= 0) visit(row[x]);
-      }
-    }
-  };
-  std::vector<std::size_t> cell_count(sets.size(), 0);
-  forEachFreeCell([&](std::int32_t& cell) { ++cell_count[static_cast<std::size_t>(cell)]; });
-
-  std::vector<std::int32_t> component(sets.size(), RegionGrid::kUnknown);
-  for (std::size_t label = sets.size(); label-- > 0;) {
-    const auto root = static_cast<std::size_t>(sets.root(static_cast<std::int32_t>(label)));
-    if (root != label) cell_count[root] += cell_count[label];
-  }
+  const RunComponents free(grid, kFree, Connectivity::by_sides);
+  std::vector<std::int32_t> label;
   int count = 0;
-  for (std::size_t label = 0; label < sets.size(); ++label) {
-    const auto root = static_cast<std::size_t>(sets.root(static_cast<std::int32_t>(label)));
-    if (root == label && static_cast<double>(cell_count[label]) >= min_component_cells) {
-      component[label] = count++;
-    } else if (root != label) {
-      component[label] = component[root];
-    }
+  for (const std::size_t cells : free.sizes()) {
+    const bool is_kept = static_cast<double>(cells) >= min_component_cells;
+    label.push_back(is_kept ? count++ : RegionGrid::kUnknown);
   }
-  forEachFreeCell([&](std::int32_t& cell) { cell = component[static_cast<std::size_t>(cell)]; });
+  for (std::size_t i = 0; i < free.runs().size(); ++i) {
+    const CellRun& run = free.runs()[i];
+    std::int32_t* const row = grid.row(run.row);
+    std::fill(row + run.begin, row + run.end, label[free.component(i)]);
+  }
   grid.setComponentCount(count);
   return grid;
 }

@@ -274,6 +274,17 @@ void noteUnknown(const MapInfo& info, const GrayImage& image, const OccupancyBit
   }
 }
 
+/// The states of all values of an opacity: far fewer than pixels.
+std::vector<CellState> statesOf(const MapInfo& info, const GrayImage& image, Opacity opacity,
+                                bool saved_unknown) {
+  std::vector<CellState> states;
+  for (std::uint32_t value = 0; value <= image.max_value; ++value) {
+    states.push_back(classify(info, value, image.max_value, opacity));
+  }
+  if (saved_unknown) states[kSavedUnknown * (image.max_value / 255)] = CellState::unknown;
+  return states;
+}
+
 OccupancyBitmap toBitmap(const MapInfo& info, const GrayImage& image, bool saved_unknown) {
   OccupancyBitmap bitmap;
   bitmap.width = image.width;
@@ -281,16 +292,18 @@ OccupancyBitmap toBitmap(const MapInfo& info, const GrayImage& image, bool saved
   bitmap.resolution = info.resolution;
   bitmap.pose_map_bitmap = info.origin;
   bitmap.cells.reserve(image.values.size());
+  std::array<std::vector<CellState>, 3> states;
+  for (const Opacity opacity : {Opacity::transparent, Opacity::partial, Opacity::opaque}) {
+    if (image.opacity.empty() && opacity != Opacity::opaque) continue;
+    states[static_cast<std::size_t>(opacity)] = statesOf(info, image, opacity, saved_unknown);
+  }
   const auto width = static_cast<std::size_t>(image.width);
-  const std::uint32_t unknown_level = kSavedUnknown * (image.max_value / 255);
   for (std::size_t row = 0; row < static_cast<std::size_t>(image.height); ++row) {
     const std::size_t image_row = static_cast<std::size_t>(image.height) - 1 - row;
     for (std::size_t column = 0; column < width; ++column) {
       const std::size_t i = image_row * width + column;
       const Opacity opacity = image.opacity.empty() ? Opacity::opaque : image.opacity[i];
-      bitmap.cells.push_back(saved_unknown && image.values[i] == unknown_level
-                                 ? CellState::unknown
-                                 : classify(info, image.values[i], image.max_value, opacity));
+      bitmap.cells.push_back(states[static_cast<std::size_t>(opacity)][image.values[i]]);
     }
   }
   return bitmap;
