@@ -48,7 +48,9 @@ void countFree(const OccupancyBitmap& bitmap, int row, std::vector<std::uint8_t>
   std::uint8_t* __restrict__ const counts = columns.data() + 1;
   for (int y = std::max(row - 1, 0); y <= std::min(row + 1, bitmap.height - 1); ++y) {
     const CellState* __restrict__ const cells = &bitmap.cells[static_cast<std::size_t>(y) * width];
-    for (std::size_t x = 0; x < width; ++x) counts[x] += cells[x] == CellState::free ? 1 : 0;
+    for (std::size_t x = 0; x < width; ++x) {
+      counts[x] = static_cast<std::uint8_t>(counts[x] + (cells[x] == CellState::free ? 1 : 0));
+    }
   }
 }
 

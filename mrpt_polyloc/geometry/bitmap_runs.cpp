@@ -35,8 +35,8 @@ void RunComponents::joinRows(std::size_t below, std::size_t here, int reach) {
   while (i < here && k < runs_.size()) {
     const CellRun &a = runs_[i], &b = runs_[k];
     if (a.begin < b.end + reach && b.begin < a.end + reach) {
-      const auto [least, other] = std::minmax(
-          {root(static_cast<std::uint32_t>(i)), root(static_cast<std::uint32_t>(k))});
+      const auto [least, other] =
+          std::minmax({root(static_cast<std::uint32_t>(i)), root(static_cast<std::uint32_t>(k))});
       component_[other] = least;
     }
     a.end < b.end ? ++i : ++k;

@@ -79,7 +79,7 @@ void unite(std::vector<TPose2D>& poses, const std::vector<TPose2D>& others,
   }
 }
 
-void add(SearchStatistics& sum, const SearchStatistics& of_one) {
+void addSearch(SearchStatistics& sum, const SearchStatistics& of_one) {
   sum.positions = of_one.positions;
   sum.evaluated += of_one.evaluated;
   sum.refined += of_one.refined;
@@ -124,7 +124,7 @@ LocalizationResult GlobalLocalizer::localize(const ScanSet& set, const PosePrior
     LocalizationResult found = searcher.localize(set.moments()[place.moment].scans[place.scan],
                                                  carried(prior, from_now), of_each);
     is_cut_short = is_cut_short || !found.certificate || !found.certificate->isDecided();
-    add(result.statistics, found.statistics);
+    addSearch(result.statistics, found.statistics);
     if (is_first) {
       result.certificate = found.certificate;
       if (result.certificate) {

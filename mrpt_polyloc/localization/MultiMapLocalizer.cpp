@@ -20,7 +20,7 @@ struct Candidate {
   double mean = 0.0;  ///< of the evidence [m]
 };
 
-void add(SearchStatistics& sum, const SearchStatistics& of_one) {
+void addMap(SearchStatistics& sum, const SearchStatistics& of_one) {
   sum.positions += of_one.positions;
   sum.evaluated += of_one.evaluated;
   sum.refined += of_one.refined;
@@ -61,7 +61,7 @@ MultiMapResult MultiMapLocalizer::localize(const ScanSet& set, const PosePrior& 
     const GlobalLocalizer& localizer = localizers_[m];
     all.of_map.push_back(localizer.localize(set, prior, of_each));
     const LocalizationResult& found = all.of_map.back();
-    add(all.result.statistics, found.statistics);
+    addMap(all.result.statistics, found.statistics);
     is_searched = is_searched || found.status != LocalizationStatus::too_few_beams;
     is_cut_short = is_cut_short || (found.certificate && !found.certificate->isDecided());
     if (found.hypotheses.empty()) continue;

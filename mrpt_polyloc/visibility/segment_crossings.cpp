@@ -26,7 +26,7 @@ Span spanOf(TPoint2D a, TPoint2D b, const TPoint2D& origin) {
 }
 
 /// Products of signed areas: negative where an end of one lies on either side of the other.
-bool cross(const Span& s, const Span& t) {
+bool meetInside(const Span& s, const Span& t) {
   const float ex = t.x - s.x, ey = t.y - s.y;
   const float turn = s.dx * t.dy - s.dy * t.dx;
   const float t_from = s.dx * ey - s.dy * ex;
@@ -58,7 +58,7 @@ std::size_t countCrossings(const std::vector<CriticalSegment>& segments,
     std::uint32_t crossings = 0;
     for (std::size_t j = i + 1; j < spans.size() && spans[j].x <= s.right; ++j) {
       const Span& t = spans[j];
-      crossings += (t.bottom <= s.top) & (s.bottom <= t.top) & cross(s, t);
+      crossings += (t.bottom <= s.top) & (s.bottom <= t.top) & meetInside(s, t);
     }
     count += crossings;
   }

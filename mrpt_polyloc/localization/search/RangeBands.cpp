@@ -22,6 +22,11 @@ constexpr float kUnbounded = EdgeBounds::kUnbounded;
 constexpr auto kSlackF = static_cast<float>(kAngularSlack);
 constexpr float kGreatest = 1e4F;  ///< inverse of the least range that is told from 0 [1/m]
 
+/// In bins that no wall blocks for all of a block, edges are listed up to this range, and so far
+/// behind the nearest wall [m]: beyond that there may be anything. On ragged maps two thirds of the
+/// bins are such, and held most of the edges; bounds get no wider (doc/performance.md).
+constexpr float kLeastReach = 8.0F, kReachBehind = 4.0F;
+
 using Depths = std::array<float, kUnwrapped + kBlock>;
 
 }  // namespace
@@ -71,6 +76,7 @@ struct RangeBandFinder::Workspace {
   VisibleEdgeIndex::EdgeRuns listed;
   std::vector<BoundaryChains::Run> narrowed_walls, narrowed_open;
   BoundingBox narrowed = BoundingBox::empty();  ///< what these are seen from
+  std::array<float, kBandBins> reach;           ///< up to which range, bin by bin
 
   void joinHits(int block, const std::array<float, kBlock>& enters,
                 const std::array<float, kBlock>& leaves, int count);
@@ -341,15 +347,19 @@ void RangeBandFinder::Workspace::findGaps(RangeBands& bands) {
     const float farthest = bands.wall_high[b];
     float reached = std::min(bands.wall_low[b], bands.open_low[b]);
     float low = 0.0F, high = 0.0F;
-    for (auto hit = begin; hit != end; ++hit) {
+    const auto consider = [&](float from) {
+      if (from - reached <= high - low) return;
+      low = reached;
+      high = from;
+    };
+    for (auto hit = begin; hit != end && reached < reach[b]; ++hit) {
       const float from = hit->near >= kGreatest ? 0.0F : 1.0F / hit->near;
-      if (from > farthest) break;
-      if (from - reached > high - low) {
-        low = reached;
-        high = from;
-      }
+      if (from > farthest || from > reach[b]) break;
+      consider(from);
       reached = std::max(reached, 1.0F / std::max(hit->far, 1.0F / kUnbounded));
     }
+    // Beyond what was looked through there may be anything.
+    if (reach[b] < farthest) consider(reach[b]);
     bands.gap_low[b] = low;
     bands.gap_high[b] = high;
   }
@@ -372,6 +382,12 @@ void RangeBandFinder::narrow(const BoundingBox& block) {
   w.followRuns<true>(chains, w.listed.walls, middle, EdgeBounds::Ends::extended);
   std::array<float, kBandBins> low, high;
   w.ranges(low.data(), high.data());
+  w.reach.fill(std::numeric_limits<float>::infinity());
+  for (std::size_t b = 0; b < kBandBins; ++b) {
+    if (std::isfinite(high[b])) continue;
+    w.reach[b] = std::max(kLeastReach, low[b] + kReachBehind);
+    high[b] = w.reach[b];
+  }
   w.keepRuns(chains, high.data(), w.narrowed_walls);
   w.sightings.clear();
   w.kept.clear();
@@ -396,13 +412,19 @@ void RangeBandFinder::find(const TPoint2D* leaf, std::size_t count, RangeBands& 
   w.hits.clear();
   w.followRuns<false>(chains, walls, middle, ends);
   w.ranges(bands.wall_low.data(), bands.wall_high.data());
-  bands.has_open = !open.empty();
-  if (bands.has_open) {
-    w.followRuns<false>(chains, open, middle, ends);
-    w.ranges(bands.open_low.data(), bands.open_high.data());
-  } else {
+  bands.has_open = !w.listed.open.empty();
+  if (open.empty()) {
     bands.open_low.fill(std::numeric_limits<float>::infinity());
     bands.open_high.fill(std::numeric_limits<float>::infinity());
+  } else {
+    w.followRuns<false>(chains, open, middle, ends);
+    w.ranges(bands.open_low.data(), bands.open_high.data());
+  }
+  if (!is_narrowed) w.reach.fill(std::numeric_limits<float>::infinity());
+  for (std::size_t b = 0; b < kBandBins; ++b) {
+    if (bands.wall_high[b] <= w.reach[b]) continue;
+    bands.wall_low[b] = std::min(bands.wall_low[b], w.reach[b]);
+    if (bands.has_open) bands.open_low[b] = std::min(bands.open_low[b], w.reach[b]);
   }
   w.findGaps(bands);
 }

@@ -48,9 +48,9 @@ class RangeBandFinder {
 
   /// Looks through what is listed for the middle of a block (within one square of the index):
   /// leaves within it are then bounded by what may be seen from it alone, which is less. What is
-  /// left out lies behind walls that block its bins from everywhere in the block, so that bounds
-  /// stay as they are, but for single edges of chains that were broken. Borders may cross the
-  /// block: their edges within it stay, and block nothing.
+  /// left out lies behind walls that block its bins from everywhere in the block, or, where none
+  /// does, so far away that it hardly bounds anything: there may be anything then. Borders may
+  /// cross the block: their edges within it stay, and block nothing.
   void narrow(const BoundingBox& block);
 
   /// \param leaf convex, counterclockwise, at most kMostVertices vertices, not crossed by a border,
