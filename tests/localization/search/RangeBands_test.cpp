@@ -62,6 +62,7 @@ struct BandTally {
   std::size_t rays = 0;
   std::size_t outside = 0;
   std::size_t in_gaps = 0;  ///< bins that have one
+  std::size_t cut = 0;      ///< rays to walls farther than the least bound by more than 5 m
   double worst = 0.0;       ///< how far outside [m]
 };
 
@@ -114,6 +115,7 @@ BandTally checkCells(const MapWithBands& built, std::size_t leaves, std::uint32_
       }
       expectWithin(std::min(hit.open, hit.wall), std::min(bands.open_low[bin], bands.wall_low[bin]),
                    std::min(bands.open_high[bin], bands.wall_high[bin]), tally);
+      tally.cut += hit.wall > bands.wall_low[bin] + 5.0F && std::isinf(bands.wall_high[bin]);
       tally.in_gaps += bands.gap_high[bin] > bands.gap_low[bin];
       expectOutside(hit.wall, bands.gap_low[bin], bands.gap_high[bin], tally);
       expectOutside(std::min(hit.open, hit.wall), bands.gap_low[bin], bands.gap_high[bin], tally);
@@ -149,6 +151,28 @@ TEST(RangeBands, HoldWhatIsSeenInRandomMaps) {
     }
   }
   EXPECT_GT(gaps, rays / 50);  // else they were not tested
+}
+
+/// Walls of pieces with gaps between, several deep: most bins are blocked by none of them, and
+/// lists end within the map.
+TEST(RangeBands, HoldWhatIsSeenThroughBrokenWalls) {
+  std::vector<std::vector<TPoint2D>> holes;
+  for (int wall = 0; wall < 5; ++wall) {
+    for (int piece = 0; piece < 20; ++piece) {
+      const double x = 3.0 * wall + 2.5, y = 0.5 + 0.6 * piece + 0.1 * (wall % 3);
+      holes.push_back(rectangle(x, y, x + 0.1, y + 0.35));
+    }
+  }
+  const PolygonMap map = mapOf(rectangle(0, 0, 18, 13), holes);
+  std::size_t cut = 0;
+  for (const double open_share : {0.0, 0.5}) {
+    SCOPED_TRACE(open_share);
+    const MapWithBands built(open_share > 0 ? withOpenEdges(map, open_share, 5) : map, 0.25);
+    const BandTally tally = checkCells(built, 300, 2, Lists::narrowed);
+    EXPECT_EQ(tally.outside, 0U) << "of " << tally.rays << ", by " << tally.worst << " m";
+    cut += tally.cut;
+  }
+  EXPECT_GT(cut, 1000U);  // else it was not tested
 }
 
 TEST(RangeBands, AreAsTightWhereTheirEdgesWereNarrowedDown) {
