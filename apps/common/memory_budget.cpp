@@ -38,7 +38,7 @@ void limitMemory() {
 }
 
 void requireMemory(const std::string& path, const PolygonMap& map, const MapIndexParams& params,
-                   const std::optional<double>& allowed) {
+                   const std::optional<double>& allowed, const std::string& another_way) {
   const MapIndexEstimate estimate = MapIndex::estimate(map, params);
   const double needed = estimate.bytes / 1e6;
   const std::optional<double> free = allowed ? std::nullopt : freeMegabytes();
@@ -48,10 +48,11 @@ void requireMemory(const std::string& path, const PolygonMap& map, const MapInde
   throw FormatError(
       path, "",
       formatted("the index of %.0f m2 would take about %.0f MB of memory and %.2g s on one core; "
-                "%.0f MB are allowed (%s). Allow more by --max-memory MB; cut the map to where the "
-                "robot can be; or, if it is not in metres, say so by --scale F",
+                "%.0f MB are allowed (%s). Allow more by --max-memory MB; ",
                 map.area(), needed, estimate.cpu_seconds, most,
-                allowed ? "--max-memory" : "half of what is free"));
+                allowed ? "--max-memory" : "half of what is free") +
+          another_way +
+          "cut the map to where the robot can be; or, if it is not in metres, say so by --scale F");
 }
 
 }  // namespace mrpt_polyloc::apps

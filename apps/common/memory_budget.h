@@ -14,9 +14,10 @@ void addMemoryOption(CLI::App& cli, std::optional<double>& megabytes);
 
 /// Refuses a map of which the index would take more memory than is allowed, before anything is
 /// built. \param allowed [MB]; not given: half of what is free now, or anything where the system
-/// does not tell \throws FormatError naming the map, with the estimate and the ways out
+/// does not tell \param another_way out that the program knows, "do so; "
+/// \throws FormatError naming the map, with the estimate and the ways out
 void requireMemory(const std::string& path, const PolygonMap& map, const MapIndexParams& params,
-                   const std::optional<double>& allowed);
+                   const std::optional<double>& allowed, const std::string& another_way = {});
 
 /// Makes the system refuse this process more memory than is free now, so that a file
 /// that asks for more fails as an error, and the machine does not swap. A lower limit that is set

@@ -8,6 +8,7 @@
 #include "view_polygons.h"
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/base/number_text.h>
 #include <mrpt_polyloc/evaluation/calibration_files.h>
 #include <mrpt_polyloc/localization/CellLocalizer.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
@@ -67,6 +68,7 @@ void checkTogether(const SearchOptions& search) {
         "--max-lost and --cell-size are of scans with noise: they do not go with --method exact");
   }
   if (search.method == "certified") return;
+  if (search.leaf_size) throw UsageError("--leaf-size needs --method certified");
   if (!search.index.empty()) throw UsageError("--index needs --method certified");
   if (search.time_budget_ms > 0.0) throw UsageError("--time-budget needs --method certified");
   if (search.search_metric != kRobust) {
@@ -74,11 +76,33 @@ void checkTogether(const SearchOptions& search) {
   }
 }
 
+MapIndexParams indexParamsOf(const SearchOptions& search) {
+  MapIndexParams params;
+  params.threads = static_cast<int>(search.threads);
+  if (search.leaf_size) params.leaf_size = *search.leaf_size;
+  return params;
+}
+
+/// \throws FormatError for a stored index of other leaves than are asked for
+MapIndex::Ptr loadIndex(const std::string& file, PolygonMap map,
+                        const std::optional<double>& leaf_size) {
+  MapIndex::Ptr index = MapIndex::load(file, std::move(map));
+  if (leaf_size && index->leafSize() != *leaf_size) {
+    throw FormatError(file, "",
+                      formatted("is of leaves of %g m, not of %g as --leaf-size asks for: give "
+                                "another file to --index",
+                                index->leafSize(), *leaf_size));
+  }
+  return index;
+}
+
 /// The index of the certified search: read from its file if that is there, else made, and kept
 /// there if a file is named.
-MapIndex::Ptr makeIndex(PolygonMap map, const std::string& file, const MapIndexParams& params) {
+MapIndex::Ptr makeIndex(PolygonMap map, const SearchOptions& search) {
+  const std::string& file = search.index;
+  const MapIndexParams params = indexParamsOf(search);
   if (file.empty()) return MapIndex::build(std::move(map), params);
-  if (std::filesystem::exists(file)) return MapIndex::load(file, std::move(map));
+  if (std::filesystem::exists(file)) return loadIndex(file, std::move(map), search.leaf_size);
   requireWritable(file);
   const MapIndex::Ptr index = MapIndex::build(std::move(map), params);
   OutputFiles files;
@@ -122,12 +146,11 @@ ScanLocalizer shared(Localizer localizer, const SearchOptions& search, std::size
 }
 
 ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
-  MapIndexParams index_params;
-  index_params.threads = static_cast<int>(search.threads);
   GlobalLocalizerParams params;
   params.hypotheses = hypothesesOf(search);
-  requireMemory(search.map, map, index_params, search.max_memory);
-  const MapIndex::Ptr index = makeIndex(std::move(map), search.index, index_params);
+  requireMemory(search.map, map, indexParamsOf(search), search.max_memory,
+                "take larger leaves by --leaf-size M; ");
+  const MapIndex::Ptr index = makeIndex(std::move(map), search);
   const auto held = std::make_shared<const GlobalLocalizer>(index, params);
   ScanLocalizer localizer = shared(GlobalLocalizer(*held), search, index->bytes());
   localizer.localize_set = [held, options = optionsOf(search)](const ScanSet& set,
@@ -138,14 +161,12 @@ ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
 }
 
 ScanLocalizer makeCells(PolygonMap map, const SearchOptions& search) {
-  MapIndexParams index_params;
-  index_params.threads = static_cast<int>(search.threads);
   CellLocalizerParams params;
   params.threads = static_cast<int>(search.threads);
   params.range = search.cell_range;
   if (search.nearest == kTree) params.nearest = NearestViews::tree;
   params.hypotheses = hypothesesOf(search);
-  CellLocalizer localizer(MapIndex::deferred(std::move(map), index_params), params);
+  CellLocalizer localizer(MapIndex::deferred(std::move(map), indexParamsOf(search)), params);
   const std::size_t bytes = localizer.indexBytes();
   return shared(std::move(localizer), search, bytes);
 }
@@ -258,6 +279,11 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
 }
 
 void addCertifiedOptions(CLI::App& options, SearchOptions& search) {
+  addNumber(
+      options, "--leaf-size", [&search](double size) { search.leaf_size = size; }, {0.05, 2.0},
+      "Side of the squares of the certified search's index: with larger ones it is built sooner "
+      "and takes less memory, and scans take longer [default: 0.25]")
+      ->type_name("M");
   addText(options, "--index", search.index,
           "Keep the index of the certified search in this file: read if it is there, else written")
       ->type_name("FILE");
@@ -288,11 +314,9 @@ ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::si
 MultiMapSearch makeMultiMapSearch(std::vector<PolygonMap> maps, const SearchOptions& search) {
   std::vector<GlobalLocalizer> localizers;
   for (PolygonMap& map : maps) {
-    MapIndexParams index_params;
-    index_params.threads = static_cast<int>(search.threads);
     GlobalLocalizerParams params;
     params.hypotheses = hypothesesOf(search);
-    localizers.emplace_back(MapIndex::build(std::move(map), index_params), params);
+    localizers.emplace_back(MapIndex::build(std::move(map), indexParamsOf(search)), params);
   }
   const auto held = std::make_shared<const MultiMapLocalizer>(std::move(localizers));
   return [held, options = optionsOf(search)](const ScanSet& set, const PosePrior& prior,

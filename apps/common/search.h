@@ -29,9 +29,10 @@ struct SearchOptions {
   std::string nearest = "index";     ///< of --method cells: index or tree
   std::optional<double> view_range;  ///< of --method exact: where sight ends [m]
   std::optional<double>
-      max_memory;               ///< for the index of the certified search [MB], see requireMemory()
-  std::string index;            ///< file to keep the certified search's index in; empty: none
-  double time_budget_ms = 0.0;  ///< of the certified search; 0: none
+      max_memory;  ///< for the index of the certified search [MB], see requireMemory()
+  std::optional<double> leaf_size;  ///< of the certified search's index [m]
+  std::string index;                ///< file to keep the certified search's index in; empty: none
+  double time_budget_ms = 0.0;      ///< of the certified search; 0: none
   std::string search_metric = "robust";  ///< of the certified search
   std::uint64_t max_hypotheses = 20;
   /// Threads for the index, and for scans at once; 0 (not given): all cores for the index, and one
@@ -58,8 +59,8 @@ struct ScanLocalizer {
   std::function<LocalizationResult(const ScanSet&, const PosePrior&)> localize_set = {};
 };
 
-/// Adds --index, --time-budget and --search-metric, which are usage errors with another method than
-/// certified.
+/// Adds --leaf-size, --index, --time-budget and --search-metric, which are usage errors with
+/// another method than certified.
 void addCertifiedOptions(CLI::App& options, SearchOptions& search);
 
 /// Prepares the search of `search.method` in a map, for so many scans: for `exact` with the map's

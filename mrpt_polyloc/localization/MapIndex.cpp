@@ -11,10 +11,10 @@ namespace mrpt_polyloc {
 
 namespace {
 
-// Measured on floors of 90 to 10,000 m2 and on maps of real buildings: 1.5 to 2.7 KB, 20 to 350 us,
+// Measured on floors of 90 to 10,000 m2 and on maps of real buildings: 1.5 to 2.7 KB, 30 to 250 us,
 // the most on ragged maps with many open edges, where many are seen from everywhere.
 constexpr double kBytesPerLeaf = 2400.0;
-constexpr double kSecondsPerLeaf = 60e-6;
+constexpr double kSecondsPerLeaf = 90e-6;
 
 }  // namespace
 

@@ -196,7 +196,7 @@ TEST_F(PolylocLocalize, RefusesAMapWhoseIndexWouldNotFit) {
   const Outcome refused = localize({"--max-memory", "0.5", "--index", path("index")});
   EXPECT_EQ(refused.code, 1);
   EXPECT_THAT(refused.err, AllOf(HasSubstr("room.wkt"), HasSubstr("MB"), HasSubstr("--max-memory"),
-                                 HasSubstr("--scale")));
+                                 HasSubstr("--leaf-size"), HasSubstr("--scale")));
   EXPECT_THAT(refused.out, IsEmpty());
   EXPECT_THAT(files(), ElementsAre("room.wkt", "sim"));
   EXPECT_EQ(localize({"--max-memory", "50"}).code, 0);
@@ -207,6 +207,25 @@ TEST_F(PolylocLocalize, RefusesAMapWhoseIndexWouldNotFit) {
                                                  path("sim/scans.rawlog"), "--max-memory", "2000"});
   EXPECT_EQ(large.code, 1);
   EXPECT_THAT(large.err, HasSubstr("810000 m2"));
+}
+
+TEST_F(PolylocLocalize, LargerLeavesMakeASmallerIndexAndTheSameAnswer) {
+  simulate("sim");
+  const Outcome small = localize({"--rows", "0", "--index", path("small")});
+  const Outcome large = localize({"--rows", "0", "--leaf-size", "0.5", "--index", path("large")});
+  EXPECT_EQ(large.code, 0) << large.err;
+  EXPECT_LT(2 * std::filesystem::file_size(path("large")),
+            std::filesystem::file_size(path("small")));
+  const auto a = firstAnswers(small.out).at(0), b = firstAnswers(large.out).at(0);
+  EXPECT_EQ(a[2], b[2]);
+  for (const std::size_t k : {4U, 5U, 6U}) EXPECT_NEAR(std::stod(a[k]), std::stod(b[k]), 0.01);
+  // A stored index has leaves of its own.
+  EXPECT_EQ(localize({"--rows", "0", "--index", path("large")}).code, 0);
+  const Outcome other = localize({"--leaf-size", "0.25", "--index", path("large")});
+  EXPECT_EQ(other.code, 1);
+  EXPECT_THAT(other.err, AllOf(HasSubstr("large"), HasSubstr("0.5 m"), HasSubstr("--leaf-size")));
+  EXPECT_EQ(localize({"--leaf-size", "0.01"}).code, 2);
+  EXPECT_EQ(localize({"--leaf-size", "0.5", "--method", "cells"}).code, 2);
 }
 
 }  // namespace
