@@ -11,24 +11,29 @@ using nlohmann::ordered_json;
 
 EvaluationJob readJob(const std::string& path) {
   auto job = JobFile(path).read();
-  if (!job) throw FormatError(path, "", "is missing or empty: a share of the run is not there");
-  const auto rows = job->identity.at("rows").get<std::size_t>();
-  if (job->scans.size() != rows) {
-    throw FormatError(path, "",
-                      "holds " + std::to_string(job->scans.size()) + " of " + std::to_string(rows) +
-                          " scans: a share of the run is not there or not done");
-  }
+  requireWhole(job ? &*job : nullptr, path);
   return *std::move(job);
 }
 
 }  // namespace
 
+void requireWhole(const EvaluationJob* job, const std::string& place) {
+  if (job == nullptr) {
+    throw FormatError(place, "", "is missing or empty: a share of the run is not there");
+  }
+  const auto rows = job->identity.at("rows").get<std::size_t>();
+  if (job->scans.size() == rows) return;
+  throw FormatError(place, "",
+                    "holds " + std::to_string(job->scans.size()) + " of " + std::to_string(rows) +
+                        " scans: a share of the run is not there or not done");
+}
+
 EvaluationRun readRun(const std::string& folder) {
   EvaluationRun run;
-  const ordered_json entry = readStored(runPath(folder));
+  const ordered_json entry = readRunEntry(folder);
   for (const auto& method : entry.at("methods")) run.methods.push_back({method.at("name"), method});
   for (const auto& name : entry.at("datasets")) {
-    EvaluatedDataset dataset{name, readStored(mapPath(folder, name)), {}};
+    EvaluatedDataset dataset{name, readMapEntry(folder, name), {}};
     std::vector<EvaluationJob> jobs;
     for (const EvaluatedMethod& method : run.methods) {
       jobs.push_back(readJob(jobPath(folder, dataset.name, method.name)));

@@ -28,6 +28,10 @@ struct EvaluationRun {
   std::vector<std::vector<EvaluationJob>> jobs;  ///< by data set, then method
 };
 
+/// \param job null if there is none \param place of it, for messages
+/// \throws FormatError unless all scans of the job are there
+void requireWhole(const EvaluationJob* job, const std::string& place);
+
 /// Reads the parts of a run. \throws FormatError naming what is missing or damaged
 EvaluationRun readRun(const std::string& folder);
 

@@ -20,6 +20,23 @@ using mrpt::math::TPose2D;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+constexpr const char* kWayOut =
+    "written by another version of polyloc-eval. Go on with that version, or run anew into another "
+    "folder (-o); nothing here was changed";
+
+/// A field that a version which wrote the file did not know.
+struct MissingField : std::runtime_error {
+  explicit MissingField(const std::string& name)
+      : std::runtime_error("has no '" + name + "': " + kWayOut) {}
+};
+
+template <class Json>
+const Json& field(const Json& object, const char* name) {
+  const auto found = object.find(name);
+  if (found == object.end()) throw MissingField(name);
+  return *found;
+}
+
 json toJson(const TPose2D& pose) {
   return {pose.x, pose.y, pose.phi};
 }
@@ -80,30 +97,31 @@ ordered_json toJson(const EvaluatedScan& scan) {
 EvaluatedScan scanOf(const json& line) {
   EvaluatedScan scan;
   ScanRecord& record = scan.record;
-  record.row = line.at("row");
-  record.stamp = line.at("stamp");
-  record.truth = poseOf(line.at("truth"));
-  record.score.status = statusOf(line.at("status"));
-  record.score.right_rank = line.at("rank");
-  record.score.in_ellipse = line.at("in_ellipse");
-  record.hypotheses = line.at("n");
-  record.score.error_m = numberOf(line.at("error").at(0));
-  record.score.error_rad = numberOf(line.at("error").at(1));
-  record.score.ms = line.at("ms");
-  scan.match = line.at("match");
+  record.row = field(line, "row");
+  record.stamp = field(line, "stamp");
+  record.truth = poseOf(field(line, "truth"));
+  record.score.status = statusOf(field(line, "status"));
+  record.score.right_rank = field(line, "rank");
+  record.score.in_ellipse = field(line, "in_ellipse");
+  record.hypotheses = field(line, "n");
+  record.score.error_m = numberOf(field(line, "error").at(0));
+  record.score.error_rad = numberOf(field(line, "error").at(1));
+  record.score.ms = field(line, "ms");
+  scan.match = field(line, "match");
   if (line.contains("pose")) {
     record.answer.emplace();
-    record.answer->pose_map_robot = poseOf(line.at("pose"));
-    record.answer->cost = numberOf(line.at("cost"));
-    record.answer->weight = line.at("weight");
+    record.answer->pose_map_robot = poseOf(field(line, "pose"));
+    record.answer->cost = numberOf(field(line, "cost"));
+    record.answer->weight = field(line, "weight");
   }
   if (line.contains("right")) {
-    scan.right = {poseOf(line.at("right")), numberOf(line.at("right_z")), line.at("right_weight")};
+    scan.right = {poseOf(field(line, "right")), numberOf(field(line, "right_z")),
+                  field(line, "right_weight")};
   }
-  const json& traits = line.at("traits");
+  const json& traits = field(line, "traits");
   scan.traits = {traits.at(0), traits.at(1), traits.at(2), traits.at(3), numberOf(traits.at(4))};
   if (line.contains("points")) {
-    const json& points = line.at("points");
+    const json& points = field(line, "points");
     for (std::size_t i = 0; i + 1 < points.size(); i += 2) {
       scan.hits.push_back({0.01 * points[i].get<double>(), 0.01 * points[i + 1].get<double>()});
     }
@@ -114,6 +132,24 @@ EvaluatedScan scanOf(const json& line) {
 std::string readWhole(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// \throws FormatError
+ordered_json readStored(const std::string& path, const std::vector<const char*>& fields) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FormatError(path, "", "cannot be read: no run of polyloc-eval is here");
+  ordered_json stored;
+  try {
+    stored = ordered_json::parse(in);
+  } catch (const std::exception& error) {
+    throw FormatError(path, "", std::string("is damaged: ") + error.what());
+  }
+  try {
+    for (const char* name : fields) field(stored, name);
+  } catch (const MissingField& error) {
+    throw FormatError(path, "", error.what());
+  }
+  return stored;
 }
 
 }  // namespace
@@ -131,7 +167,8 @@ void EvaluationJob::add(const EvaluationJob& other, const std::string& place) {
         differs += (differs.empty() ? "" : ", ") + item.key();
       }
     }
-    throw FormatError(place, "", "is of another run: it differs in " + differs);
+    throw FormatError(place, "",
+                      "is of another run: it differs in " + differs + " (-o: another folder)");
   }
   for (const auto& [row, scan] : other.scans) {
     if (!scans.emplace(row, scan).second) {
@@ -161,9 +198,9 @@ std::optional<EvaluationJob> JobFile::read() const {
       const auto line = ordered_json::parse(text.begin() + static_cast<std::ptrdiff_t>(begin),
                                             text.begin() + static_cast<std::ptrdiff_t>(end));
       if (!has_header) {
-        job.identity = line.at("identity");
-        job.index = {line.at("index_build_s"), line.at("index_mb")};
-        job.cold_start_s = line.at("cold_start_s");
+        job.identity = field(line, "identity");
+        job.index = {field(line, "index_build_s"), field(line, "index_mb")};
+        job.cold_start_s = field(line, "cold_start_s");
         has_header = true;
       } else {
         EvaluatedScan scan = scanOf(line);
@@ -172,6 +209,8 @@ std::optional<EvaluationJob> JobFile::read() const {
           throw std::runtime_error("row " + std::to_string(row) + " a second time");
         }
       }
+    } catch (const MissingField& error) {
+      throw FormatError(path_, "line " + std::to_string(number), error.what());
     } catch (const std::exception& error) {
       throw FormatError(path_, "line " + std::to_string(number),
                         std::string("is not of polyloc-eval: ") + error.what());
@@ -233,14 +272,20 @@ std::string runPath(const std::string& folder) {
   return folder + "/parts/run.json";
 }
 
-nlohmann::ordered_json readStored(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FormatError(path, "", "cannot be read: no run of polyloc-eval is here");
-  try {
-    return nlohmann::ordered_json::parse(in);
-  } catch (const std::exception& error) {
-    throw FormatError(path, "", std::string("is damaged: ") + error.what());
+ordered_json readRunEntry(const std::string& folder) {
+  const std::string path = runPath(folder);
+  ordered_json run = readStored(path, {"format", "version", "shard", "datasets", "methods"});
+  if (run["format"] != kStoreFormat) {
+    throw FormatError(path, "",
+                      "format " + run["format"].dump() + ", not " + std::to_string(kStoreFormat) +
+                          ": " + kWayOut);
   }
+  return run;
+}
+
+ordered_json readMapEntry(const std::string& folder, const std::string& dataset) {
+  return readStored(mapPath(folder, dataset), {"statistics", "simulated", "good", "stretches",
+                                               "tolerance_m", "tolerance_deg", "outline"});
 }
 
 }  // namespace mrpt_polyloc::apps

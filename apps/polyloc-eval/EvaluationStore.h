@@ -16,6 +16,10 @@
 
 namespace mrpt_polyloc::apps {
 
+/// Of what is kept in the folder of a run. To be raised whenever a field comes, goes or means
+/// something else: an older run is then refused rather than mixed with, or misread.
+constexpr int kStoreFormat = 2;
+
 /// All that is kept of a scan that a method was given.
 struct EvaluatedScan {
   ScanRecord record;
@@ -81,10 +85,12 @@ std::string jobPath(const std::string& folder, const std::string& dataset,
                     const std::string& method);
 /// Where the map of a data set is kept: {statistics, rings, kinds, beyond}, in centimetres.
 std::string mapPath(const std::string& folder, const std::string& dataset);
-/// Where it is kept what the run is: {version, datasets, methods, ...}.
+/// Where it is kept what the run is: {format, version, shard, datasets, methods}.
 std::string runPath(const std::string& folder);
 
-/// What one of the two holds. \throws FormatError if it is not there or damaged
-nlohmann::ordered_json readStored(const std::string& path);
+/// What the two hold. \throws FormatError naming file and field if it is not there, damaged, or
+/// written by another version of polyloc-eval
+nlohmann::ordered_json readRunEntry(const std::string& folder);
+nlohmann::ordered_json readMapEntry(const std::string& folder, const std::string& dataset);
 
 }  // namespace mrpt_polyloc::apps

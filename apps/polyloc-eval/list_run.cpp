@@ -2,12 +2,14 @@
 
 #include "../common/OutputFiles.h"
 #include "EvaluationList.h"
+#include "EvaluationRun.h"
 #include "EvaluationStore.h"
 #include "PreparedDataset.h"
 #include "list_results.h"
 #include <mrpt_polyloc/base/Checksum.h>
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/errors.h>
+#include <mrpt_polyloc/io/GzInputStream.h>
 #include <mrpt_polyloc/io/result_json.h>
 #include <mrpt_polyloc/version.h>
 
@@ -17,6 +19,7 @@
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <sys/file.h>
@@ -97,7 +100,7 @@ class FolderLock {
 
 ordered_json describe(const EvaluationList& list, const std::string& shard) {
   ordered_json run;
-  run["format"] = 1;
+  run["format"] = kStoreFormat;
   run["version"] = kVersion;
   run["shard"] = shard;
   for (const DatasetEntry& dataset : list.datasets) run["datasets"].push_back(dataset.name);
@@ -129,14 +132,38 @@ void openRun(const ListRunOptions& options, const ordered_json& run) {
   if (!options.resume) {
     throw FormatError(options.folder, "", "holds a run already: --resume goes on with it");
   }
-  const ordered_json there = readStored(path);
+  const ordered_json there = readRunEntry(options.folder);
   for (const auto& item : run.items()) {
     if (!there.contains(item.key()) || there[item.key()] != item.value()) {
-      throw FormatError(
-          options.folder, "",
-          "holds another run, which cannot be gone on with: it differs in " + item.key());
+      throw FormatError(options.folder, "",
+                        "holds another run, which cannot be gone on with: it differs in " +
+                            item.key() +
+                            "; with the old list it can, the new one needs another folder");
     }
   }
+}
+
+/// The options of a data set, but for what its hashes speak of.
+std::vector<std::string> withoutFiles(const std::vector<std::string>& arguments) {
+  std::vector<std::string> options;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& name = arguments[i];
+    if (name == "--map" || name == "--scans" || name == "--truth" || name == "--good") {
+      ++i;  // its path, which another machine may have elsewhere
+    } else {
+      options.push_back(name);
+    }
+  }
+  return options;
+}
+
+/// Empty for no file.
+std::string hashOfFile(const std::string& path) {
+  if (path.empty()) return "";
+  const std::string text = GzInputStream(path).readAll();
+  Checksum sum;
+  sum.add(text.data(), text.size());
+  return hashText(sum.value());
 }
 
 ordered_json identityOf(const DatasetEntry& entry, const MethodEntry& method,
@@ -147,7 +174,9 @@ ordered_json identityOf(const DatasetEntry& entry, const MethodEntry& method,
   identity["version"] = kVersion;
   identity["map_hash"] = hashText(dataset.map.hash());
   identity["inputs_hash"] = dataset.inputs_hash;
+  identity["dataset_options"] = withoutFiles(entry.arguments);
   identity["options"] = method.arguments;
+  identity["calibration_hash"] = hashOfFile(optionsOf(entry, method).search.calibration_file);
   identity["kind"] = method.method;
   identity["every"] = entry.every;
   identity["rows"] = dataset.rows.size();
@@ -184,6 +213,16 @@ class ListRun {
         list_(list),
         progress_(list.datasets.size() * list.methods.size()) {}
 
+  /// \throws FormatError for a part of another version or run, before anything is run or written
+  void readParts() {
+    for (const DatasetEntry& dataset : list_.datasets) {
+      for (const MethodEntry& method : list_.methods) {
+        const std::string path = jobPath(options_.folder, dataset.name, method.name);
+        if (auto part = JobFile(path).read()) parts_.emplace(path, *std::move(part));
+      }
+    }
+  }
+
   void run() {
     for (std::size_t d = 0; d < list_.datasets.size(); ++d) runDataset(d);
   }
@@ -193,26 +232,32 @@ class ListRun {
     const DatasetEntry& entry = list_.datasets[d];
     const EvaluationOptions common = optionsOf(entry, list_.methods.front());
     const PreparedDataset dataset = prepareDataset(program_, entry, common);
+    std::vector<EvaluationJob> jobs;
+    for (const MethodEntry& method : list_.methods) {
+      EvaluationJob& job = jobs.emplace_back();
+      job.identity = identityOf(entry, method, dataset);
+      const std::string path = jobPath(options_.folder, entry.name, method.name);
+      const auto part = parts_.find(path);
+      if (part == parts_.end()) continue;
+      job.add(part->second, path);
+      parts_.erase(part);
+    }
     writeFile(mapPath(options_.folder, entry.name),
               dataset.description(entry, common.tolerance).dump() + "\n");
     std::unique_ptr<const ScanJudge> judge;
     for (std::size_t m = 0; m < list_.methods.size(); ++m) {
       const MethodEntry& method = list_.methods[m];
+      EvaluationJob& job = jobs[m];
       JobFile file(jobPath(options_.folder, entry.name, method.name));
-      EvaluationJob job;
-      job.identity = identityOf(entry, method, dataset);
       std::vector<std::size_t> rows = shareOf(dataset.rows, d + m);
-      if (const auto there = file.read()) {
-        job.add(*there, jobPath(options_.folder, entry.name, method.name));
+      if (!job.scans.empty()) {
         rows.erase(std::remove_if(rows.begin(), rows.end(),
                                   [&](std::size_t row) { return job.scans.count(row) > 0; }),
                    rows.end());
       }
       const bool has_rows = !rows.empty();
       if (has_rows) {
-        if (!judge) {
-          judge = std::make_unique<ScanJudge>(dataset.map, static_cast<int>(options_.threads));
-        }
+        if (!judge) judge = std::make_unique<ScanJudge>(dataset.map);
         runJob(entry, method, dataset, *judge, rows, file, job);
       }
       progress_.end(has_rows);
@@ -269,6 +314,7 @@ class ListRun {
   const Program& program_;
   const ListRunOptions& options_;
   const EvaluationList& list_;
+  std::map<std::string, EvaluationJob> parts_;  ///< by path: what an earlier run left
   RunProgress progress_;
 };
 
@@ -279,10 +325,12 @@ int runList(const Program& program, const ListRunOptions& options) {
   makeFolder(options.folder);
   makeFolder(options.folder + "/parts");
   const FolderLock lock(options.folder);
-  removeTemporaries(options.folder);
   const std::string shard = std::to_string(options.shard) + "/" + std::to_string(options.shards);
   openRun(options, describe(list, shard));
-  ListRun(program, options, list).run();
+  ListRun run(program, options, list);
+  run.readParts();
+  removeTemporaries(options.folder);
+  run.run();
   if (options.shards > 1) {
     std::cout << "share " << shard << " is done in " << options.folder
               << "; put all together with polyloc-eval merge DIR... -o OUT\n";
@@ -299,7 +347,7 @@ int mergeRuns(const Program&, const std::vector<std::string>& folders, const std
   std::map<std::string, EvaluationJob> jobs;
   std::map<std::string, std::string> maps;
   for (const std::string& part : folders) {
-    ordered_json there = readStored(runPath(part));
+    ordered_json there = readRunEntry(part);
     there.erase("shard");
     if (run.is_null()) run = there;
     for (const auto& item : run.items()) {
@@ -309,7 +357,7 @@ int mergeRuns(const Program&, const std::vector<std::string>& folders, const std
     }
     for (const auto& dataset : run.at("datasets")) {
       const std::string name = dataset.get<std::string>();
-      const std::string map = readStored(mapPath(part, name)).dump() + "\n";
+      const std::string map = readMapEntry(part, name).dump() + "\n";
       if (!maps.emplace(name, map).second && maps[name] != map) {
         throw FormatError(mapPath(part, name), "", "is another map than in another share");
       }
@@ -323,9 +371,19 @@ int mergeRuns(const Program&, const std::vector<std::string>& folders, const std
       }
     }
   }
+  for (const auto& dataset : run.at("datasets")) {
+    for (const auto& method : run.at("methods")) {
+      const std::string key =
+          dataset.get<std::string>() + "@" + method.at("name").get<std::string>();
+      const auto job = jobs.find(key);
+      requireWhole(job == jobs.end() ? nullptr : &job->second, key);
+    }
+  }
+  if (fs::exists(runPath(folder))) {
+    throw FormatError(folder, "", "holds a run already: -o must be a new folder");
+  }
   makeFolder(folder);
   makeFolder(folder + "/parts");
-  if (fs::exists(runPath(folder))) throw FormatError(folder, "", "holds a run already");
   run["shard"] = "1/1";
   for (const auto& [name, text] : maps) writeFile(mapPath(folder, name), text);
   for (const auto& [key, job] : jobs) {

@@ -12,7 +12,8 @@
 namespace mrpt_polyloc {
 namespace {
 
-constexpr double kLargestGone = 4.0;             // [m2]: a cupboard, no inner courtyard
+constexpr double kLargestGone = 4.0;  // [m2]: a cupboard, no inner courtyard
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGlassCosine = 0.965925826289;  // 15 degrees
 
 /// The left normal of the edge from a to b, which points into free space; null if they are one.
@@ -82,6 +83,25 @@ bool isNear(const std::vector<WallSegment>& box, const TPoint2D& origin, double 
   return inside;
 }
 
+/// An arc of directions [rad], from its right end.
+struct Arc {
+  double right, width;
+};
+
+/// Directions in which a wall may be met, a little more than it covers: whether it is met is asked
+/// of each beam.
+Arc arcOf(const WallSegment& wall, const TPoint2D& origin) {
+  constexpr double kSlack = 1e-6;       // [rad]: far more than rounding
+  constexpr double kLeastRange = 1e-6;  // [m]: nearer, an end has no direction to speak of
+  const TPoint2D a = wall.a - origin, b = wall.b - origin;
+  const bool is_near = std::min(std::hypot(a.x, a.y), std::hypot(b.x, b.y)) < kLeastRange;
+  const double of_a = std::atan2(a.y, a.x),
+               turn = std::remainder(std::atan2(b.y, b.x) - of_a, kTwoPi);
+  // From on the wall its ends are half a turn apart: all directions.
+  if (is_near || std::abs(turn) > kPi - 2.0 * kSlack) return {0.0, kTwoPi};
+  return {of_a + std::min(turn, 0.0) - kSlack, std::abs(turn) + 2.0 * kSlack};
+}
+
 }  // namespace
 
 void WorldChanges::check() const {
@@ -145,22 +165,58 @@ TPoint2D ChangedWorld::worldPoint(const TPoint2D& point_map) const {
   return {middle_.x + c * arm.x - s * arm.y, middle_.y + s * arm.x + c * arm.y};
 }
 
-double ChangedWorld::range(const TPoint2D& origin, double direction, double clearance) const {
-  const TPoint2D ray{std::cos(direction), std::sin(direction)};
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Wall& wall : walls_) {
-    if (wall.is_glass &&
-        std::abs(dot(ray, normalOf(wall.segment.a, wall.segment.b))) < kGlassCosine) {
-      continue;
-    }
-    nearest = std::min(nearest, rangeTo(wall.segment, origin, ray));
+double ChangedWorld::rangeToWall(const Wall& wall, const TPoint2D& origin,
+                                 const TPoint2D& ray) const {
+  if (wall.is_glass &&
+      std::abs(dot(ray, normalOf(wall.segment.a, wall.segment.b))) < kGlassCosine) {
+    return kInfinity;
   }
+  return rangeTo(wall.segment, origin, ray);
+}
+
+double ChangedWorld::nearestWithBoxes(double nearest, const TPoint2D& origin, const TPoint2D& ray,
+                                      double clearance) const {
   for (const std::vector<WallSegment>& box : boxes_) {
-    double met = std::numeric_limits<double>::infinity();
+    double met = kInfinity;
     for (const WallSegment& side : box) met = std::min(met, rangeTo(side, origin, ray));
     if (met < nearest && !isNear(box, origin, clearance)) nearest = met;
   }
   return nearest;
+}
+
+double ChangedWorld::range(const TPoint2D& origin, double direction, double clearance) const {
+  const TPoint2D ray{std::cos(direction), std::sin(direction)};
+  double nearest = kInfinity;
+  for (const Wall& wall : walls_) nearest = std::min(nearest, rangeToWall(wall, origin, ray));
+  return nearestWithBoxes(nearest, origin, ray, clearance);
+}
+
+std::vector<double> ChangedWorld::ranges(const TPoint2D& origin, double heading,
+                                         const std::vector<double>& bearings,
+                                         double clearance) const {
+  std::vector<TPoint2D> rays;
+  for (const double bearing : bearings) {
+    rays.push_back({std::cos(heading + bearing), std::sin(heading + bearing)});
+  }
+  std::vector<double> ranges(bearings.size(), kInfinity);
+  if (bearings.empty()) return ranges;
+  for (const Wall& wall : walls_) {
+    const auto [right, width] = arcOf(wall.segment, origin);
+    // Turned to the first place at or behind the first beam, and once around before it.
+    const double start = bearings.front() + wrapToTwoPi(right - heading - bearings.front());
+    for (const double from : {start, start - kTwoPi}) {
+      const auto begin = std::lower_bound(bearings.begin(), bearings.end(), from);
+      const auto end = std::upper_bound(begin, bearings.end(), from + width);
+      for (auto beam = begin; beam != end; ++beam) {
+        const auto i = static_cast<std::size_t>(beam - bearings.begin());
+        ranges[i] = std::min(ranges[i], rangeToWall(wall, origin, rays[i]));
+      }
+    }
+  }
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    ranges[i] = nearestWithBoxes(ranges[i], origin, rays[i], clearance);
+  }
+  return ranges;
 }
 
 }  // namespace mrpt_polyloc

@@ -52,6 +52,12 @@ class POLYLOC_EXPORT ChangedWorld {
   /// [m] are left out
   double range(const TPoint2D& origin, double direction, double clearance) const;
 
+  /// The same, to the last bit, for many beams: along heading + bearings[i]. Walls are held against
+  /// those beams alone that point at them: O(walls log(beams) + walls met).
+  /// \param bearings rising, over less than a full circle [rad]
+  std::vector<double> ranges(const TPoint2D& origin, double heading,
+                             const std::vector<double>& bearings, double clearance) const;
+
   /// Walls of the world [m], for tests and pictures; boxes not among them.
   std::size_t wallCount() const { return walls_.size(); }
   std::size_t boxCount() const { return boxes_.size(); }
@@ -62,6 +68,9 @@ class POLYLOC_EXPORT ChangedWorld {
     bool is_glass = false;
   };
   TPoint2D worldPoint(const TPoint2D& point_map) const;
+  double rangeToWall(const Wall& wall, const TPoint2D& origin, const TPoint2D& ray) const;
+  double nearestWithBoxes(double nearest_wall, const TPoint2D& origin, const TPoint2D& ray,
+                          double clearance) const;
 
   TPoint2D middle_{0, 0};
   bool wing_is_right_ = true;  ///< beyond the middle in x; else in y

@@ -35,12 +35,21 @@ double distanceToFreeSpace(const PolygonMap& map, const TPoint2D& point) {
   return nearest;
 }
 
+/// No lists of what is seen from where: a scan has one true pose, and to find it among all edges
+/// costs less than lists for the whole map.
+VisibleEdgeIndex::Lists noLists(const Triangulation& triangulation) {
+  VisibleEdgeIndex::Lists lists;
+  lists.square_size = RangePredictor::kSquareSize;
+  lists.horizon = VisibleEdgeIndex::kHorizon;
+  lists.layout = BoundaryChains(triangulation).hash();
+  lists.begin = {0};
+  return lists;
+}
+
 }  // namespace
 
-ScanJudge::ScanJudge(const PolygonMap& map, int threads)
-    : map_(map),
-      triangulation_(map),
-      predictor_(triangulation_, RangePredictor::kSquareSize, threads) {}
+ScanJudge::ScanJudge(const PolygonMap& map)
+    : map_(map), triangulation_(map), predictor_(triangulation_, noLists(triangulation_)) {}
 
 ScanTraits ScanJudge::traits(const RangeScan& scan, const mrpt::math::TPose2D& truth) const {
   const mrpt::math::TPose2D eye = scan.beamFrameFromRobot(truth);

@@ -25,11 +25,12 @@ struct POLYLOC_EXPORT ScanTraits {
   double outside = 0.0;  ///< distance of the true sensor place from the free space; 0 within [m]
 };
 
-/// Compares scans with a map from their true poses. Const and thread-safe.
+/// Compares scans with a map from their true poses: quick to make, for it prepares little, and
+/// linear in the map's edges for each scan. Const and thread-safe.
 class POLYLOC_EXPORT ScanJudge {
  public:
-  /// Keeps a reference to the map. \param threads for what is prepared; 0: all cores
-  explicit ScanJudge(const PolygonMap& map, int threads = 0);
+  /// Keeps a reference to the map.
+  explicit ScanJudge(const PolygonMap& map);
 
   ScanTraits traits(const RangeScan& scan, const mrpt::math::TPose2D& truth) const;
 

@@ -139,11 +139,8 @@ mrpt::obs::CObservation2DRangeScan simulateScan(const ChangedWorld& world,
                                                 const mrpt::math::TPose2D& pose_map_laser,
                                                 double stamp, Random& noise) {
   const mrpt::math::TPose2D eye = world.worldPose(pose_map_laser);
-  std::vector<double> ranges;
-  for (const double bearing : bearingsOf(params)) {
-    ranges.push_back(world.range({eye.x, eye.y}, eye.phi + bearing, params.clearance));
-  }
-  return observe(std::move(ranges), params, stamp, noise);
+  return observe(world.ranges({eye.x, eye.y}, eye.phi, bearingsOf(params), params.clearance),
+                 params, stamp, noise);
 }
 
 mrpt::obs::CObservation2DRangeScan simulateScan(const WallSegments& walls,

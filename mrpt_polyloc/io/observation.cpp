@@ -28,6 +28,47 @@ void requireFinitePose(const mrpt::obs::CObservation2DRangeScan& observation) {
   }
 }
 
+void requireMaxRange(double max_range) {
+  if (!std::isfinite(max_range) || max_range <= 0.0) {
+    throw std::invalid_argument("toObservation: max_range is not positive");
+  }
+}
+
+/// A scan's observation of so many beams before anything is known of them.
+mrpt::obs::CObservation2DRangeScan blankObservation(const RangeScan& scan, std::size_t beams,
+                                                    double aperture, double yaw, double max_range) {
+  mrpt::obs::CObservation2DRangeScan observation;
+  observation.aperture = static_cast<float>(aperture);
+  observation.maxRange = static_cast<float>(max_range);
+  observation.rightToLeft = true;
+  observation.sensorLabel = scan.label();
+  observation.sensorPose = mrpt::poses::CPose3D(scan.sensor().x, scan.sensor().y, 0, yaw, 0, 0);
+  observation.timestamp = mrpt::Clock::fromDouble(scan.stamp());
+  observation.resizeScanAndAssign(beams, 0.0F, false);
+  return observation;
+}
+
+void putReading(const Beam& beam, std::size_t place, double max_range,
+                mrpt::obs::CObservation2DRangeScan& observation) {
+  const bool hit = beam.kind == BeamKind::hit && beam.range < max_range;
+  observation.setScanRange(place, static_cast<float>(hit ? beam.range : max_range));
+  observation.setScanRangeValidity(place, hit);
+}
+
+/// The middle one of the spacings of beams in rising order; beams on one another count once.
+double middleSpacing(const std::vector<Beam>& beams) {
+  constexpr double kFinest = 0.01 * kDegree, kOfOneBeam = kDegree;
+  std::vector<double> spacings;
+  for (std::size_t i = 1; i < beams.size(); ++i) {
+    const double spacing = beams[i].bearing - beams[i - 1].bearing;
+    if (spacing > kFinest) spacings.push_back(spacing);
+  }
+  if (spacings.empty()) return kOfOneBeam;
+  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  return *middle;
+}
+
 }  // namespace
 
 bool rightToLeft(const mrpt::obs::CObservation2DRangeScan& observation) {
@@ -94,32 +135,46 @@ mrpt::obs::CObservation2DRangeScan toObservation(const RangeScan& scan, double a
   if (!std::isfinite(aperture) || aperture < 0.0 || !std::isfinite(yaw)) {
     throw std::invalid_argument("toObservation: aperture or yaw is negative or not finite");
   }
-  if (!std::isfinite(max_range) || max_range <= 0.0) {
-    throw std::invalid_argument("toObservation: max_range is not positive");
-  }
+  requireMaxRange(max_range);
   const auto& beams = scan.beams();
   const double step = beams.size() > 1 ? aperture / static_cast<double>(beams.size() - 1) : 0.0;
   const double first = yaw - (beams.size() > 1 ? 0.5 * aperture : 0.0);
 
-  mrpt::obs::CObservation2DRangeScan observation;
-  observation.aperture = static_cast<float>(aperture);
-  observation.maxRange = static_cast<float>(max_range);
-  observation.rightToLeft = true;
-  observation.sensorLabel = scan.label();
-  observation.sensorPose = mrpt::poses::CPose3D(scan.sensor().x, scan.sensor().y, 0, yaw, 0, 0);
-  observation.timestamp = mrpt::Clock::fromDouble(scan.stamp());
-  observation.resizeScanAndAssign(beams.size(), 0.0F, false);
+  mrpt::obs::CObservation2DRangeScan observation =
+      blankObservation(scan, beams.size(), aperture, yaw, max_range);
   for (std::size_t i = 0; i < beams.size(); ++i) {
-    const Beam& beam = beams[i];
-    if (beam.kind == BeamKind::invalid) continue;
+    if (beams[i].kind == BeamKind::invalid) continue;
     const double bearing = first + static_cast<double>(i) * step;
-    if (std::abs(std::remainder(beam.bearing - bearing, 2 * kPi)) > kBearingTolerance) {
+    if (std::abs(std::remainder(beams[i].bearing - bearing, 2 * kPi)) > kBearingTolerance) {
       throw std::invalid_argument("toObservation: beam " + std::to_string(i) +
                                   " is not where evenly spread beams would have it");
     }
-    const bool hit = beam.kind == BeamKind::hit && beam.range < max_range;
-    observation.setScanRange(i, static_cast<float>(hit ? beam.range : max_range));
-    observation.setScanRangeValidity(i, hit);
+    putReading(beams[i], i, max_range, observation);
+  }
+  return observation;
+}
+
+mrpt::obs::CObservation2DRangeScan toEvenObservation(const RangeScan& scan, double max_range) {
+  requireMaxRange(max_range);
+  std::vector<Beam> beams;
+  for (const Beam& beam : scan.beams()) {
+    if (beam.kind != BeamKind::invalid) beams.push_back(beam);
+  }
+  if (beams.empty()) return blankObservation(scan, 0, 0.0, 0.0, max_range);
+  const auto is_before = [](const Beam& a, const Beam& b) { return a.bearing < b.bearing; };
+  std::stable_sort(beams.begin(), beams.end(), is_before);
+  const double step = middleSpacing(beams), first = beams.front().bearing;
+  const auto placeOf = [&](const Beam& beam) {
+    return static_cast<std::size_t>(std::lround((beam.bearing - first) / step));
+  };
+  const std::size_t last = placeOf(beams.back());
+  const double aperture = step * static_cast<double>(last);
+  mrpt::obs::CObservation2DRangeScan observation =
+      blankObservation(scan, last + 1, aperture, first + 0.5 * aperture, max_range);
+  for (const Beam& beam : beams) {
+    const std::size_t place = placeOf(beam);
+    if (beam.kind != BeamKind::hit && observation.getScanRangeValidity(place)) continue;
+    putReading(beam, place, max_range, observation);
   }
   return observation;
 }

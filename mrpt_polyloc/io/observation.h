@@ -47,4 +47,12 @@ POLYLOC_EXPORT mrpt::obs::CObservation2DRangeScan toObservation(const RangeScan&
                                                                 double aperture, double yaw,
                                                                 double max_range);
 
+/// The same of a scan whose beams may be spread anyhow: the aperture is from its first to its last
+/// beam that says something, the spacing the middle one of its own spacings (1 degree for a single
+/// beam), and beams that are elsewhere move by up to half of it. Of several on one place the last
+/// hit stays. Where no beam was, nothing is known.
+/// \throws std::invalid_argument for a maximum range that is not positive and finite
+POLYLOC_EXPORT mrpt::obs::CObservation2DRangeScan toEvenObservation(const RangeScan& scan,
+                                                                    double max_range);
+
 }  // namespace mrpt_polyloc

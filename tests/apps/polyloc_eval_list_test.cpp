@@ -1,5 +1,8 @@
 #include "ProgramTest.h"
 #include "driven_room.h"
+#include <mrpt_polyloc/evaluation/calibration_files.h>
+#include <mrpt_polyloc/evaluation/stretches.h>
+#include <mrpt_polyloc/evaluation/truth.h>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -61,6 +64,24 @@ class PolylocEvalList : public ProgramTest {
       }
     }
     return result;
+  }
+  /// All files below a folder, with what they hold.
+  std::map<std::string, std::string> contents(const std::string& folder) const {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(path(folder))) {
+      if (entry.is_regular_file()) files[entry.path().string()] = readFile(entry.path());
+    }
+    return files;
+  }
+  /// The whole lines of a file, one of them without a field, as a version before it wrote them.
+  void forgetField(const std::string& file, std::size_t number, const std::string& field) const {
+    std::vector<std::string> lines = linesOf(readFile(path(file)));
+    json line = json::parse(lines.at(number - 1));
+    ASSERT_EQ(line.erase(field), 1u);
+    lines[number - 1] = line.dump();
+    std::string text;
+    for (const std::string& whole : lines) text += whole + "\n";
+    write(file, text);
   }
   /// The estimates, which evo would read.
   std::string estimates(const std::string& folder) const {
@@ -148,6 +169,62 @@ TEST_F(PolylocEvalList, ADriveIsTakenByScanSetsAndByTheParticleFilter) {
   EXPECT_THAT(simulated.err, HasSubstr("simulated ones are no drive"));
 }
 
+TEST_F(PolylocEvalList, StretchesAreOfTheWholeDriveWhateverRowsAreEvaluated) {
+  // To and fro by 0.9 m, then a slow way off. The rows of every second scan seem to stand still,
+  // and then to go half the way.
+  constexpr std::size_t kRows = 60;
+  ASSERT_EQ(run("polyloc-simulate", {"--map", roomFile(), "-n", std::to_string(kRows), "--seed",
+                                     "1", "-o", path("sim")})
+                .code,
+            0);
+  std::vector<StampedPose> truth;
+  std::vector<mrpt::math::TPose2D> drive;
+  for (std::size_t i = 0; i < kRows; ++i) {
+    const double x = i < 40 ? (i % 2 == 0 ? 1.0 : 1.9) : 1.0 + 0.3 * static_cast<double>(i - 40);
+    drive.emplace_back(x, 2.0, 0.0);
+    truth.push_back({1e9 + static_cast<double>(i), drive.back()});
+  }
+  write("truth.tum", toTum(truth));
+  const std::string file =
+      write("list.yaml",
+            "datasets:\n"
+            "  - {name: all, map: room.wkt, scans: sim/scans.rawlog, truth: truth.tum, "
+            "tolerance: \"2,90\"}\n"
+            "  - {name: some, map: room.wkt, scans: sim/scans.rawlog, truth: truth.tum, "
+            "tolerance: \"2,90\", every: 2}\n"
+            "methods: [certified]\n");
+  const Outcome outcome = evaluate({file, "-o", path("out")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+
+  const std::vector<std::size_t> whole = stretchesOf(drive);
+  std::vector<mrpt::math::TPose2D> evaluated;
+  std::vector<std::size_t> expected;
+  for (std::size_t i = 0; i < kRows; i += 2) {
+    evaluated.push_back(drive[i]);
+    expected.push_back(whole[i]);
+  }
+  ASSERT_GE(whole.back(), 3u);
+  ASSERT_LT(stretchesOf(evaluated).back(), whole.back());  // what must not come out
+  const auto kept = [&](const std::string& name) {
+    return json::parse(readFile(path("out/parts/" + name + ".map.json")))["stretches"]
+        .get<std::vector<std::size_t>>();
+  };
+  EXPECT_EQ(kept("all"), whole);
+  EXPECT_EQ(kept("some"), expected);
+
+  // And the interval is over them: some scans are right by luck.
+  std::vector<bool> right;
+  for (const std::string& line : linesOf(readFile(path("out/scans.csv")))) {
+    const std::vector<std::string> fields = fieldsOf(line);
+    if (fields[0] == "some") right.push_back(fields[5] == "1");
+  }
+  ASSERT_THAT(right, AllOf(SizeIs(kRows / 2), Contains(true), Contains(false)));
+  const ShareInterval interval = shareInterval(right, expected);
+  const json some = summary("out")["results"][1];
+  EXPECT_EQ(some["stretches"], whole.back() + 1);
+  EXPECT_EQ(some["interval"]["top1"], json({interval.low, interval.high}));
+}
+
 TEST_F(PolylocEvalList, AKilledRunGoesOnAndCountsNothingTwice) {
   const std::string file = list("certified, correlative");
   ASSERT_EQ(evaluate({file, "-o", path("whole")}).code, 0);
@@ -196,6 +273,83 @@ TEST_F(PolylocEvalList, GoesOnOnlyWithTheSameRun) {
   EXPECT_THAT(outcome.err, HasSubstr("differs in inputs_hash"));
 }
 
+TEST_F(PolylocEvalList, GoesOnOnlyWithTheSameOptionsOfSetsAndCalibration) {
+  list();
+  const auto listOf = [&](const std::string& tolerance) {
+    return write("list.yaml", "datasets:\n  - {name: files, map: room.wkt, scans: " +
+                                  std::string("sim/scans.rawlog, truth: sim/truth.tum, ") +
+                                  "tolerance: \"" + tolerance +
+                                  "\", calibration: own.json}\nmethods: [certified]\n");
+  };
+  write("own.json", calibrationJson(Calibration{}).dump());
+  const std::string file = listOf("0.3,5");
+  ASSERT_EQ(evaluate({file, "-o", path("out")}).code, 0);
+  const auto before = contents("out");
+  const auto expectRefusal = [&](const std::string& field) {
+    const Outcome outcome = evaluate({file, "-o", path("out"), "--resume"});
+    EXPECT_EQ(outcome.code, 1) << field;
+    EXPECT_THAT(outcome.err,
+                AllOf(HasSubstr("files@certified.jsonl"), HasSubstr("differs in " + field)));
+    EXPECT_EQ(contents("out"), before) << field;
+  };
+  listOf("0.5,5");
+  expectRefusal("dataset_options");
+  listOf("0.3,5");
+  Calibration other;
+  other.least_match_probability = 0.4;
+  write("own.json", calibrationJson(other).dump());
+  expectRefusal("calibration_hash");
+}
+
+TEST_F(PolylocEvalList, FoldersOfAnotherVersionAreRefusedAndLeftAsTheyAre) {
+  const std::string file = list();
+  const auto makeFolders = [&] {
+    for (const char* folder : {"out", "share1", "share2", "bad"}) fs::remove_all(path(folder));
+    ASSERT_EQ(evaluate({file, "-o", path("out")}).code, 0);
+    for (const std::string i : {"1", "2"}) {
+      ASSERT_EQ(evaluate({file, "--shard", i + "/2", "-o", path("share" + i)}).code, 0);
+    }
+  };
+  const auto expectRefusal = [&](const std::string& folder, const std::vector<std::string>& words) {
+    const auto before = contents(folder);
+    std::vector<std::string> arguments = {file, "--resume", "-o", path("out")};
+    if (folder != "out") arguments = {"merge", path("share1"), path("share2"), "-o", path("bad")};
+    const Outcome outcome = evaluate(arguments);
+    EXPECT_EQ(outcome.code, 1) << words.front();
+    for (const std::string& word : words) EXPECT_THAT(outcome.err, HasSubstr(word));
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("another version of polyloc-eval"),
+                                   HasSubstr("another folder"), Not(HasSubstr("exception"))));
+    EXPECT_EQ(contents(folder), before) << words.front();
+    EXPECT_FALSE(fs::exists(path("bad")));
+  };
+  for (const std::string folder : {"out", "share2"}) {
+    makeFolders();
+    json run = json::parse(readFile(path(folder + "/parts/run.json")));
+    run["format"] = 1;
+    write(folder + "/parts/run.json", run.dump() + "\n");
+    expectRefusal(folder, {folder + "/parts/run.json: ", "format 1, not "});
+    run.erase("format");
+    write(folder + "/parts/run.json", run.dump() + "\n");
+    expectRefusal(folder, {folder + "/parts/run.json: ", "has no 'format'"});
+  }
+  // A part may be of a version that counted formats as this one does: of a copied file, say.
+  makeFolders();
+  const std::string part = "/parts/plan-hall-2@certified.jsonl";  // not the first of the run
+  forgetField("out" + part, 3, "in_ellipse");
+  expectRefusal("out", {"out" + part + ": line 3: ", "has no 'in_ellipse'"});
+  for (const std::string share : {"share1", "share2"}) {
+    if (readFile(path(share + part)).empty()) continue;
+    forgetField(share + part, 2, "traits");
+    expectRefusal(share, {share + part + ": line 2: ", "has no 'traits'"});
+    makeFolders();
+  }
+  forgetField("share2/parts/files.map.json", 1, "stretches");
+  expectRefusal("share2", {"share2/parts/files.map.json: ", "has no 'stretches'"});
+  // Of the folder of a run it is written anew, for it is made from the inputs alone.
+  forgetField("out/parts/files.map.json", 1, "stretches");
+  EXPECT_EQ(evaluate({file, "--resume", "-o", path("out")}).code, 0);
+}
+
 TEST_F(PolylocEvalList, SharesPutTogetherAreTheWhole) {
   const std::string file = list("certified, correlative");
   ASSERT_EQ(evaluate({file, "-o", path("whole")}).code, 0);
@@ -220,8 +374,7 @@ TEST_F(PolylocEvalList, SharesPutTogetherAreTheWhole) {
     const Outcome bad = evaluate(bad_merge);
     EXPECT_EQ(bad.code, 1);
     EXPECT_THAT(bad.err, HasSubstr(message));
-    EXPECT_FALSE(fs::exists(path("bad/summary.json")));
-    fs::remove_all(path("bad"));
+    EXPECT_FALSE(fs::exists(path("bad")));
   };
   expectFailure({"share1", "share3"}, "a share of the run is not there");
   expectFailure({"share1", "share2", "share2", "share3"}, "is there a second time");

@@ -41,6 +41,36 @@ TEST(ChangedWorld, UnchangedIsTheMap) {
   EXPECT_EQ(same.worldPose(pose), pose);
 }
 
+TEST(ChangedWorld, ManyBeamsAreWhatEachIsByItself) {
+  WorldChanges changed;
+  changed.boxes = 20;
+  changed.wall_shift = 0.05;
+  changed.wing_turn = 0.1;
+  changed.glass = 0.3;
+  Random random(6);
+  for (const WorldChanges& changes : {WorldChanges{}, changed}) {
+    const ChangedWorld room = world(changes);
+    for (int i = 0; i < 600; ++i) {
+      // Anywhere, or at a corner, on a wall and on the line of one, up to the least step away.
+      TPoint2D place{random.uniform(-1, 11), random.uniform(-1, 5)};
+      if (i % 4 == 1) place = {i % 8 < 4 ? 2.0 : 10.0, i % 16 < 8 ? 1.0 : 0.0};
+      if (i % 4 == 2) place.y = i % 8 < 4 ? 0.0 : 2.0;
+      if (i % 12 == 5) place.x += 1e-9;
+      if (i % 12 == 6) place.y = std::nextafter(place.y, 3.0);
+      const double heading = i % 3 == 0 ? 0.5 * kPi * (i % 5) : random.uniform(-9, 9);
+      const double fov = i % 2 == 0 ? kTwoPi * 359 / 360 : random.uniform(0.01, 6.0);
+      std::vector<double> bearings;
+      for (int k = 0; k < 180; ++k) bearings.push_back(-0.5 * fov + fov * k / 179.0);
+      const std::vector<double> ranges = room.ranges(place, heading, bearings, 0.3);
+      for (std::size_t k = 0; k < bearings.size(); ++k) {
+        ASSERT_EQ(ranges[k], room.range(place, heading + bearings[k], 0.3)) << i << " " << k;
+      }
+    }
+    EXPECT_TRUE(room.ranges({5, 2}, 0.0, {}, 0.3).empty());
+    EXPECT_EQ(room.ranges({5, 2}, 0.4, {0.0}, 0.3).front(), room.range({5, 2}, 0.4, 0.3));
+  }
+}
+
 TEST(ChangedWorld, ObstaclesThatAreGoneLetBeamsPass) {
   WorldChanges changes;
   changes.gone = 1.0;

@@ -1,4 +1,5 @@
 #include "tests/support/bridge_files.h"
+#include <mrpt_polyloc/base/Random.h>
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/io/observation.h>
 
@@ -250,6 +251,88 @@ TEST(ToObservation, RefusesBeamsThatAreElsewhere) {
   EXPECT_THROW(toObservation(even, 1.0, 0.1, 10.0), std::invalid_argument);
   EXPECT_THROW(toObservation(even, -1.0, 0.0, 10.0), std::invalid_argument);
   EXPECT_THROW(toObservation(even, 1.0, 0.0, 0.0), std::invalid_argument);
+}
+
+/// The beams that say something.
+std::vector<Beam> tellingBeams(const RangeScan& scan) {
+  std::vector<Beam> beams;
+  for (const Beam& beam : scan.beams()) {
+    if (beam.kind != BeamKind::invalid) beams.push_back(beam);
+  }
+  return beams;
+}
+
+TEST(ToEvenObservation, IsTheInverseWhereBeamsAreEven) {
+  Random random(31);
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    const double first = random.uniform(-3.0, 1.0), step = random.uniform(0.005, 0.05);
+    std::vector<Beam> beams;
+    for (int i = 0; i < 120; ++i) {
+      const double lot = random.unit();
+      const BeamKind kind = lot < 0.2 && i > 0 && i < 119 ? BeamKind::invalid
+                            : lot < 0.4                   ? BeamKind::no_return
+                                                          : BeamKind::hit;
+      beams.push_back({first + step * i, random.uniform(0.1, 20.0), kind});
+    }
+    const RangeScan scan(beams, {0.3, -0.1}, 17.0, "LASER");
+    const RangeScan back = toRangeScan(toEvenObservation(scan, 25.0));
+    EXPECT_EQ(back.sensor().x, 0.3);
+    EXPECT_EQ(back.sensor().y, -0.1);
+    EXPECT_EQ(back.stamp(), 17.0);
+    EXPECT_EQ(back.label(), "LASER");
+    const std::vector<Beam> is = tellingBeams(back);
+    std::size_t k = 0;
+    for (const Beam& beam : tellingBeams(scan)) {
+      if (beam.kind != BeamKind::hit) continue;
+      while (k < is.size() && is[k].kind != BeamKind::hit) ++k;
+      ASSERT_LT(k, is.size());
+      EXPECT_LT(angleBetween(is[k].bearing, beam.bearing), 1e-5);
+      EXPECT_NEAR(is[k].range, beam.range, 1e-5);
+      ++k;
+    }
+    EXPECT_EQ(back.hitCount(), scan.hitCount());
+  }
+}
+
+TEST(ToEvenObservation, UnevenBeamsMoveByUpToHalfTheirMiddleSpacing) {
+  Random random(32);
+  std::vector<Beam> beams;
+  for (int i = 0; i < 200; ++i) {
+    beams.push_back({-1.5 + 0.01 * i + random.uniform(-0.0009, 0.0009), 1.0 + i, BeamKind::hit});
+  }
+  const RangeScan back = toRangeScan(toEvenObservation(RangeScan(beams), 1000.0));
+  EXPECT_GE(back.hitCount(), 190u);  // two may come to one place
+  for (const Beam& beam : back.beams()) {
+    if (beam.kind != BeamKind::hit) continue;
+    const auto i = static_cast<std::size_t>(std::lround(beam.range - 1.0));
+    ASSERT_LT(i, beams.size());
+    EXPECT_LT(angleBetween(beam.bearing, beams[i].bearing), 0.0055) << i;
+  }
+}
+
+TEST(ToEvenObservation, OfSeveralBeamsOnOnePlaceTheLastHitStays) {
+  const RangeScan scan({{0.0, 1, BeamKind::hit},
+                        {0.1, 2, BeamKind::hit},
+                        {0.1001, 3, BeamKind::hit},
+                        {0.1001, 9, BeamKind::no_return},
+                        {0.2, 4, BeamKind::hit},
+                        {0.3, 5, BeamKind::hit}});
+  const auto observation = toEvenObservation(scan, 10.0);
+  ASSERT_EQ(observation.getScanSize(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_TRUE(observation.getScanRangeValidity(i));
+    EXPECT_EQ(observation.getScanRange(i), i == 0 ? 1.0F : static_cast<float>(i + 2));
+  }
+}
+
+TEST(ToEvenObservation, TakesScansOfNoneAndOfOneBeam) {
+  EXPECT_EQ(toEvenObservation(RangeScan({}), 10.0).getScanSize(), 0u);
+  EXPECT_EQ(toEvenObservation(RangeScan({{0.3, 0.0, BeamKind::invalid}}), 10.0).getScanSize(), 0u);
+  const RangeScan back =
+      toRangeScan(toEvenObservation(RangeScan({{0.3, 2.0, BeamKind::hit}}), 10.0));
+  ASSERT_EQ(back.beams().size(), 1u);
+  EXPECT_NEAR(back.beams()[0].bearing, 0.3, 1e-6);
+  EXPECT_THROW(toEvenObservation(RangeScan({}), 0.0), std::invalid_argument);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/evaluation/baselines/ParticleFilterBaseline.h>
 #include <mrpt_polyloc/evaluation/baselines/mrpt_maps.h>
+#include <mrpt_polyloc/io/observation.h>
 
 #include <mrpt/bayes/CParticleFilter.h>
 #include <mrpt/obs/CActionCollection.h>
@@ -38,52 +39,13 @@ constexpr double kHeapTurn = 15.0 * kDegree;  // [rad]
 constexpr std::size_t kMostHeaps = 20;
 constexpr std::size_t kMostBins = 60;  // of particles, that heaps are looked for around
 
-/// A scan as MRPT's observation, whose beams are evenly spread: by the middle one of the scan's
-/// own spacings, so that beams of uneven scans move by up to half of it.
-CObservation2DRangeScan observationOf(const RangeScan& scan) {
-  std::vector<Beam> beams;
-  for (const Beam& beam : scan.beams()) {
-    if (beam.kind != BeamKind::invalid) beams.push_back(beam);
-  }
-  const auto is_before = [](const Beam& a, const Beam& b) { return a.bearing < b.bearing; };
-  std::stable_sort(beams.begin(), beams.end(), is_before);
-  constexpr double kFinest = 0.01 * kDegree;
-  std::vector<double> spacings;
-  for (std::size_t i = 1; i < beams.size(); ++i) {
-    const double spacing = beams[i].bearing - beams[i - 1].bearing;
-    if (spacing > kFinest) spacings.push_back(spacing);
-  }
-  double step = kDegree;  // of a single beam
-  if (!spacings.empty()) {
-    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-    std::nth_element(spacings.begin(), middle, spacings.end());
-    step = *middle;
-  }
-  const double first = beams.front().bearing, span = beams.back().bearing - first;
-  const auto last = static_cast<std::size_t>(std::lround(span / step));
-  CObservation2DRangeScan observation;
-  observation.aperture = static_cast<float>(step * static_cast<double>(last));
-  observation.rightToLeft = true;
-  observation.maxRange = 1000.0F;
-  observation.sensorPose =
-      mrpt::poses::CPose3D(scan.sensor().x, scan.sensor().y, 0.0,
-                           first + 0.5 * step * static_cast<double>(last), 0.0, 0.0);
-  observation.resizeScanAndAssign(last + 1, 0.0F, false);
-  for (const Beam& beam : beams) {
-    if (beam.kind != BeamKind::hit) continue;
-    const auto i =
-        std::min(last, static_cast<std::size_t>(std::lround((beam.bearing - first) / step)));
-    observation.setScanRange(i, static_cast<float>(beam.range));
-    observation.setScanRangeValidity(i, true);
-  }
-  return observation;
-}
+constexpr double kMaxRange = 1000.0;  // [m]: hits are hits, however far
 
 mrpt::obs::CSensoryFrame frameOf(const Moment& moment) {
   mrpt::obs::CSensoryFrame frame;
   for (const RangeScan& scan : moment.scans) {
     if (scan.hitCount() == 0) continue;
-    frame.insert(std::make_shared<CObservation2DRangeScan>(observationOf(scan)));
+    frame.insert(std::make_shared<CObservation2DRangeScan>(toEvenObservation(scan, kMaxRange)));
   }
   return frame;
 }
