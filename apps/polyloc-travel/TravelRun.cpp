@@ -121,15 +121,10 @@ PosePrior TravelRun::priorNow() const {
 const TrackingState& TravelRun::follow(const RangeScan& scan) {
   constexpr double kWhole = 0.97;
   if (tracker_.state().status == LocalizationStatus::no_match) is_anchored_ = false;
-  if (!is_anchored_) {
-    SearchOptions options;
-    options.max_hypotheses = trackerParams().max_hypotheses;
-    options.unite_valleys = false;
-    const LocalizationResult alone = localizer_.localize(scan, priorNow(), options);
-    is_anchored_ = alone.listed >= kWhole && alone.hypotheses.size() < options.max_hypotheses;
-    tracker_.reset(priorNow());
-  }
-  return tracker_.update(scan);
+  if (!is_anchored_) tracker_.reset(priorNow());
+  const TrackingState& state = tracker_.update(scan);
+  if (state.has_searched) is_anchored_ = state.listed >= kWhole;
+  return state;
 }
 
 /// The pose that the robot is sure of: the tracker's, if the scans of the last metres, searched

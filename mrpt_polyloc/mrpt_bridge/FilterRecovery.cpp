@@ -105,11 +105,12 @@ void FilterRecovery::move(const Motion& motion) {
 }
 
 /// Takes the scan, and returns what was seen on the last metres.
-ScanSet FilterRecovery::lastMetresWith(const RangeScan& scan) {
+ScanSet FilterRecovery::lastMetresWith(RangeScan scan) {
+  if (params_.last_metres.length <= 0.0) return ScanSet(std::move(scan));
   if (scan.stamp() < last_stamp_) seen_.clear();  // a clock set back, or a log begun again
   last_stamp_ = scan.stamp();
   const Motion way = std::exchange(since_scan_, Motion());
-  return seen_.add({scan}, way);
+  return seen_.add({std::move(scan)}, way);
 }
 
 LocalizationResult FilterRecovery::search(const ScanSet& seen) const {
@@ -130,7 +131,7 @@ LocalizationResult FilterRecovery::start(const CObservation2DRangeScan& scan, st
 FilterRecovery::Verdict FilterRecovery::update(const CObservation2DRangeScan& scan,
                                                std::uint64_t seed, CPosePDFParticles& particles) {
   Verdict verdict;
-  const RangeScan beams = toRangeScan(scan);
+  RangeScan beams = toRangeScan(scan);
   verdict.health = health_;
   if (beams.hitCount() < params_.least_hits) return verdict;
   verdict.fit = filterFit(map_, scan, particles, params_.judged_particles);
@@ -139,7 +140,7 @@ FilterRecovery::Verdict FilterRecovery::update(const CObservation2DRangeScan& sc
   if (is_placed_) health_ = monitor_.update(*verdict.fit);
   verdict.health = health_;
   if (isInDoubt(health_) && !was_in_doubt) seen_.clear();
-  const ScanSet seen = lastMetresWith(beams);
+  const ScanSet seen = lastMetresWith(std::move(beams));
   if (is_placed_ && health_ != FilterHealth::lost) {
     if (health_ != FilterHealth::doubtful) unsure_ = 0;
     return verdict;

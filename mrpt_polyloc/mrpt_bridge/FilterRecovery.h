@@ -108,7 +108,7 @@ class POLYLOC_EXPORT FilterRecovery {
                  mrpt::poses::CPosePDFParticles& particles);
 
  private:
-  ScanSet lastMetresWith(const RangeScan& scan);
+  ScanSet lastMetresWith(RangeScan scan);
   LocalizationResult search(const ScanSet& seen) const;
 
   const GlobalLocalizer* localizer_;

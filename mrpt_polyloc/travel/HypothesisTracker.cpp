@@ -142,6 +142,9 @@ void HypothesisTracker::search(const ScanSet& now) {
   const bool is_first = state_.status == LocalizationStatus::too_few_beams;
   const LocalizationResult found =
       localizer_.localize(now, is_first ? prior_ : PosePrior(), options);
+  const bool is_cut = found.hypotheses.size() == options.max_hypotheses &&
+                      found.hypotheses.back().weight >= params_.least_weight;
+  state_.listed = is_cut ? 0.0 : found.listed;
   // What was believed of "none of these" is shared between the new ones and, still, none of them.
   const double share =
       state_.none_probability * std::min(found.match_probability * found.listed, 0.999);

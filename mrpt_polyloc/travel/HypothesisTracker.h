@@ -67,6 +67,10 @@ struct POLYLOC_EXPORT TrackingState {
   std::size_t scans = 0;                      ///< taken so far
   double travelled = 0.0;                     ///< so far [m]
   bool has_searched = false;                  ///< whether the last update() made a search
+  /// Of the last search: the share of the posterior that what it found holds, see
+  /// LocalizationResult::listed; 0 if max_hypotheses were not enough for all that may be right. Far
+  /// below 1 the robot may be where no hypothesis is, and who is left in the end need not be right.
+  double listed = 0.0;
   std::vector<std::uint64_t> dropped;         ///< by the last update(): hopeless ones
   std::vector<std::uint64_t> merged;          ///< by the last update(): became one with a heavier
 };

@@ -102,7 +102,7 @@ class Planning {
     constexpr double kNews = 2.0;  // [m]
     TravelPlan plan;
     plan.status = TravelStatus::blocked;
-    if (!safe_.isStartFree() || reach() < kLeastReach) return plan;
+    if (!safe_.isStartFree() || reach() < kLeastReach) return turned();
     const Sight now({situation_.scans.front()}, ownRadius(params_));
     SafeSet::Place chosen = safe_.reached().front();
     double most = -1.0, best = 0.0;
@@ -118,7 +118,7 @@ class Planning {
       best = effort;
       chosen = place;
     }
-    if (most < least) return plan;
+    if (most < least) return turned();
     TravelValues::Value value;
     value.pose = TPose2D(chosen.point.x, chosen.point.y, headingAt(chosen.point));
     value.falls.assign(situation_.hypotheses.size(), 0.0);
@@ -127,6 +127,23 @@ class Planning {
   }
 
  private:
+  /// To look from where it is to where it has not looked, or `blocked`: a robot that stands before a
+  /// wall with its only laser must turn to see how it gets away.
+  TravelPlan turned() const {
+    TravelPlan plan;
+    plan.status = TravelStatus::blocked;
+    if (values_.seesAllAround()) return plan;
+    for (const double turn : {0.5 * kPi, -0.5 * kPi, kPi}) {
+      TravelValues::Value value;
+      value.pose = TPose2D(0, 0, turn);
+      value.falls.assign(situation_.hypotheses.size(), 0.0);
+      if (wasLookedFrom(value.pose)) continue;
+      take({std::move(value), 0.0}, plan);
+      return plan;
+    }
+    return plan;
+  }
+
   SafeSetParams limited(SafeSetParams safe, double quorum) const {
     safe.quorum = quorum;
     safe.reach = std::max(safe.square, std::min(safe.reach, situation_.most_distance));
@@ -290,6 +307,7 @@ class Planning {
     plan.value = choice.value.told;
     plan.falls = choice.value.falls;
     plan.path = ways().pathTo({plan.goal.x, plan.goal.y});
+    if (plan.path.empty()) plan.path = {{0, 0}};  // it cannot leave its place, and turns there
     if (plan.path.size() > 1) plan.path.back() = {plan.goal.x, plan.goal.y};
     plan.distance = lengthOf(plan.path);
     cutToSight(plan);
