@@ -23,10 +23,21 @@ LastMetresParams drivenMetres() {
   return params;
 }
 
-/// Lasers of short range see the same in very many places.
+/// Hypotheses of a search: lasers of short range see the same in very many places.
+constexpr std::size_t kMostOfOne = 100, kMostOfDrive = 50;
+/// A list that holds so much of the posterior is whole.
+constexpr double kWhole = 0.97;
+/// The weight that the answer must have by the last metres together ...
+constexpr double kSure = 0.99;
+/// ... and the probability of a match. That is calibrated for one scan, and what the map does not
+/// have lowers it however many scans agree; it only bars answers that fit badly all along.
+constexpr double kLeastMatch = 0.4;
+/// From this probability that none of the hypotheses is right on nothing is made of them.
+constexpr double kLost = 0.7;
+
 HypothesisTrackerParams trackerParams() {
   HypothesisTrackerParams params;
-  params.max_hypotheses = 100;
+  params.max_hypotheses = kMostOfOne;
   return params;
 }
 
@@ -52,20 +63,23 @@ void TravelRun::look() {
   constexpr std::size_t kKept = 25;  // scans: enough for the way back out of a dead end
   scans_.insert(scans_.begin(), {world_.scan(truth_, noise_), odometry_});
   if (scans_.size() > kKept) scans_.pop_back();
-  const TrackingState& state = follow(scans_.front().scan);
   ++result_.scans;
-  answer_ = conclude(state);
+  const ScanSet drive = last_metres_.add({scans_.front().scan}, since_scan_);
+  since_scan_ = Motion();
+  is_searched_now_ = false;
+  follow(drive);
+  answer_ = conclude(drive);
   looked_.push_back(odometry_);
   if (result_.scans == 1) {
     result_.first_scan = scans_.front().scan;
-    result_.is_ambiguous_at_start = !is_anchored_ || state.status != LocalizationStatus::unique;
+    result_.is_ambiguous_at_start = !answer_;
   }
-  result_.steps.push_back({truth_, living_, {}, result_.travelled});
+  result_.steps.push_back({truth_, tracker_.state().hypotheses, {}, result_.travelled});
   measureError();
-  decide(state);
+  decide();
 }
 
-void TravelRun::decide(const TrackingState& state) {
+void TravelRun::decide() {
   if (answer_) {
     const bool is_right = isRight(*answer_, truth_, params_.tolerance);
     result_.outcome = is_right ? TravelOutcome::localized : TravelOutcome::wrong;
@@ -76,7 +90,7 @@ void TravelRun::decide(const TrackingState& state) {
     is_over_ = true;
     return;
   }
-  situation_ = situationOf(state);
+  situation_ = situationNow();
   TravelPlan& plan = result_.steps.back().plan;
   plan = makePlan();
   result_.planning_ms.push_back(plan.planning_ms);
@@ -116,55 +130,62 @@ PosePrior TravelRun::priorNow() const {
 }
 
 /// Lasers of short range see the same in so many places that a search cannot list them all. What
-/// is concluded among some of them is worth nothing: the tracker starts anew with each scan until
-/// there is one whose list is whole.
-const TrackingState& TravelRun::follow(const RangeScan& scan) {
-  constexpr double kWhole = 0.97;
-  if (tracker_.state().status == LocalizationStatus::no_match) is_anchored_ = false;
-  if (!is_anchored_) tracker_.reset(priorNow());
-  const TrackingState& state = tracker_.update(scan);
+/// is concluded among some of them is worth nothing: the last metres are searched anew with each
+/// scan until there is a list that is whole.
+void TravelRun::follow(const ScanSet& drive) {
+  if (!is_anchored_ || isLost()) return search(drive);
+  const TrackingState& state = tracker_.update(drive.now().scans);
   if (state.has_searched) is_anchored_ = state.listed >= kWhole;
-  return state;
+}
+
+/// The tracker goes on with what the scans of the last metres say together.
+void TravelRun::search(const ScanSet& drive) {
+  SearchOptions options;
+  options.max_hypotheses = drive.single() != nullptr ? kMostOfOne : kMostOfDrive;
+  options.unite_valleys = false;
+  if (!is_searched_now_) searched_ = localizer_.localize(drive, priorNow(), options);
+  is_searched_now_ = true;
+  const std::vector<Hypothesis>& found = searched_.hypotheses;
+  const bool is_cut = found.size() == options.max_hypotheses &&
+                      found.back().weight >= tracker_.params().least_weight;
+  is_anchored_ = searched_.listed >= kWhole && !is_cut;
+  tracker_.start(searched_);
 }
 
 /// The pose that the robot is sure of: the tracker's, if the scans of the last metres, searched
-/// anew and judged together, have the same answer. If they have another, the tracker starts anew:
-/// it followed what was left of a list without the truth. If they have several, those are what
-/// is to be told apart.
-std::optional<TPose2D> TravelRun::conclude(const TrackingState& state) {
-  const ScanSet drive = last_metres_.add({scans_.front().scan}, since_scan_);
-  since_scan_ = Motion();
-  living_ = state.hypotheses;
-  if (!is_anchored_ || state.status != LocalizationStatus::unique) return std::nullopt;
-  const TPose2D& first = state.hypotheses.front().pose_map_robot;
-  if (drive.single() != nullptr) return first;
-  constexpr double kLikely = 0.8;
-  const LocalizationResult all = localizer_.localize(drive, priorNow());
+/// anew and judged together, have the same answer. If they have another, or several, the tracker
+/// goes on with those: it followed what was left of a list without the truth.
+std::optional<TPose2D> TravelRun::conclude(const ScanSet& drive) {
+  const TrackingState& state = tracker_.state();
+  if (!is_anchored_ || state.hypotheses.empty()) return std::nullopt;
+  const TrackedHypothesis first = state.hypotheses.front();
+  if (drive.single() != nullptr) {
+    const bool is_sure = searched_.status == LocalizationStatus::unique;
+    return is_sure ? std::optional<TPose2D>(first.pose_map_robot) : std::nullopt;
+  }
+  if (state.status != LocalizationStatus::unique) return std::nullopt;
+  search(drive);
   double near = 0.0;
-  for (const Hypothesis& hypothesis : all.hypotheses) {
-    if (isRight(hypothesis.pose_map_robot, first, kSamePlace)) near += hypothesis.weight;
+  for (const Hypothesis& hypothesis : searched_.hypotheses) {
+    if (isRight(hypothesis.pose_map_robot, first.pose_map_robot, kSamePlace)) {
+      near += hypothesis.weight;
+    }
   }
-  if (near >= kLikely && all.status == LocalizationStatus::unique) return first;
-  living_.clear();
-  for (const Hypothesis& hypothesis : all.hypotheses) {
-    living_.push_back({next_id_++, hypothesis.pose_map_robot, hypothesis.covariance,
-                       hypothesis.weight, hypothesis.cost});
-  }
-  is_anchored_ = near > 1.0 - kLikely;
+  if (near >= kSure && searched_.match_probability >= kLeastMatch) return first.pose_map_robot;
   return std::nullopt;
 }
 
-bool TravelRun::knowsEnough(const TrackingState& state) const {
-  return is_anchored_ && state.status != LocalizationStatus::no_match &&
-         state.status != LocalizationStatus::too_few_beams;
+bool TravelRun::isLost() const {
+  const TrackingState& state = tracker_.state();
+  return state.hypotheses.empty() || state.none_probability > kLost;
 }
 
-TravelSituation TravelRun::situationOf(const TrackingState& state) const {
+TravelSituation TravelRun::situationNow() const {
   TravelSituation situation;
   // Maps tell where it is free while there are hypotheses to ask; else what was seen before.
   constexpr std::size_t kRecent = 3;
-  const bool knows_enough = knowsEnough(state);
-  for (const TrackedHypothesis& tracked : living_) {
+  const bool knows_enough = is_anchored_ && !isLost();
+  for (const TrackedHypothesis& tracked : tracker_.state().hypotheses) {
     if (!knows_enough) break;
     situation.hypotheses.push_back(tracked.toHypothesis());
   }
@@ -180,7 +201,7 @@ TravelSituation TravelRun::situationOf(const TrackingState& state) const {
 }
 
 TravelPlan TravelRun::makePlan() const {
-  if (!knowsEnough(tracker_.state())) return planner_.explore(situation_);
+  if (!is_anchored_ || isLost()) return planner_.explore(situation_);
   TravelPlan plan = planner_.plan(situation_);
   if (plan.status != TravelStatus::decided) return plan;
   return planner_.explore(situation_);
@@ -238,8 +259,9 @@ Motion TravelRun::move(const TPose2D& told) {
 void TravelRun::measureError() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   result_.error_m = result_.error_rad = nan;
-  if (living_.empty() && !answer_) return;
-  const TPose2D& first = answer_ ? *answer_ : living_.front().pose_map_robot;
+  const std::vector<TrackedHypothesis>& hypotheses = tracker_.state().hypotheses;
+  if (hypotheses.empty() && !answer_) return;
+  const TPose2D& first = answer_ ? *answer_ : hypotheses.front().pose_map_robot;
   result_.error_m = std::hypot(first.x - truth_.x, first.y - truth_.y);
   result_.error_rad = angleBetween(first.phi, truth_.phi);
 }

@@ -92,12 +92,13 @@ class TravelRun {
   const mrpt::math::TPose2D& odometry() const { return odometry_; }
 
  private:
-  void decide(const TrackingState& state);
+  void decide();
   PosePrior priorNow() const;
-  const TrackingState& follow(const RangeScan& scan);
-  std::optional<mrpt::math::TPose2D> conclude(const TrackingState& state);
-  bool knowsEnough(const TrackingState& state) const;
-  TravelSituation situationOf(const TrackingState& state) const;
+  void follow(const ScanSet& drive);
+  void search(const ScanSet& drive);
+  std::optional<mrpt::math::TPose2D> conclude(const ScanSet& drive);
+  bool isLost() const;
+  TravelSituation situationNow() const;
   TravelPlan makePlan() const;
   Motion move(const mrpt::math::TPose2D& told);
   void measureError();
@@ -116,9 +117,9 @@ class TravelRun {
   ScanAccumulator last_metres_;
   Motion since_scan_;
   std::optional<mrpt::math::TPose2D> answer_;
-  std::vector<TrackedHypothesis> living_;  ///< what is planned for
-  std::uint64_t next_id_ = 1'000'000'000;  ///< apart from the tracker's
-  bool is_anchored_ = false;               ///< the tracker began with a whole list
+  LocalizationResult searched_;  ///< the last search of the last metres
+  bool is_searched_now_ = false;  ///< ... up to the last scan
+  bool is_anchored_ = false;      ///< the tracker began with a whole list
   bool is_over_ = false;
   double turned_ = 0.0;  ///< as told, all turns [rad]
   int blocked_ = 0;

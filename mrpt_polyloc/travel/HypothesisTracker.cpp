@@ -134,18 +134,21 @@ const TrackingState& HypothesisTracker::update(const std::vector<RangeScan>& sca
 }
 
 void HypothesisTracker::search(const ScanSet& now) {
-  state_.has_searched = true;
-  since_search_ = 0.0;
   SearchOptions options;
   options.max_hypotheses = params_.max_hypotheses;
   options.unite_valleys = false;  // the next scans may tell where in it
   const bool is_first = state_.status == LocalizationStatus::too_few_beams;
   const LocalizationResult found =
       localizer_.localize(now, is_first ? prior_ : PosePrior(), options);
-  const bool is_cut = found.hypotheses.size() == options.max_hypotheses &&
-                      found.hypotheses.back().weight >= params_.least_weight;
+  adopt(found, found.hypotheses.size() == options.max_hypotheses &&
+                   found.hypotheses.back().weight >= params_.least_weight);
+}
+
+/// What was believed of "none of these" is shared between the new ones and, still, none of them.
+void HypothesisTracker::adopt(const LocalizationResult& found, bool is_cut) {
+  state_.has_searched = true;
+  since_search_ = 0.0;
   state_.listed = is_cut ? 0.0 : found.listed;
-  // What was believed of "none of these" is shared between the new ones and, still, none of them.
   const double share =
       state_.none_probability * std::min(found.match_probability * found.listed, 0.999);
   for (const Hypothesis& hypothesis : found.hypotheses) {
@@ -153,6 +156,19 @@ void HypothesisTracker::search(const ScanSet& now) {
                                  share * hypothesis.weight / found.listed, hypothesis.cost});
   }
   state_.none_probability -= share;
+}
+
+const TrackingState& HypothesisTracker::start(const LocalizationResult& found) {
+  const std::size_t scans = state_.scans;
+  const double travelled = state_.travelled;
+  reset();
+  state_.scans = scans;
+  state_.travelled = travelled;
+  if (found.status == LocalizationStatus::too_few_beams) return state_;
+  adopt(found, false);
+  mergeNear();
+  settle();
+  return state_;
 }
 
 void HypothesisTracker::weigh(const ScanSet& now, double gain) {

@@ -107,6 +107,10 @@ class POLYLOC_EXPORT HypothesisTracker {
 
   const TrackingState& state() const { return state_; }
 
+  /// Follows what a search found for the robot's pose now, as of the scans of the last metres
+  /// (GlobalLocalizer::localize(ScanSet)), and forgets the rest. The next update() weighs it.
+  const TrackingState& start(const LocalizationResult& found);
+
   /// The state as a search's result, to seed MRPT's filters from (see ParticleSeeder): weights are
   /// shares of the hypotheses alone, match_probability that one of them is right.
   LocalizationResult result() const;
@@ -122,6 +126,7 @@ class POLYLOC_EXPORT HypothesisTracker {
 
  private:
   void search(const ScanSet& now);
+  void adopt(const LocalizationResult& found, bool is_cut);
   void weigh(const ScanSet& now, double share);
   void doubt(const ScanSet& now, double share);
   void mergeNear();

@@ -428,7 +428,15 @@ TravelPlanner::TravelPlanner(MapIndex::Ptr index, TravelPlannerParams params)
 TravelPlan TravelPlanner::plan(const TravelSituation& situation) const {
   if (situation.scans.empty()) throw InvalidParamsError("TravelSituation: there is no scan");
   const Stopwatch watch;
-  TravelPlan plan = Planning(situation, params_, field_, index_->parts().predictor()).run();
+  const RangePredictor& predictor = index_->parts().predictor();
+  TravelPlan plan = Planning(situation, params_, field_, predictor).run();
+  if (plan.status != TravelStatus::decided && !(plan.value > 0.0)) {
+    // Doubts of some centimetres must not close a door for good.
+    TravelPlannerParams bold = params_;
+    bold.safe.most_uncertainty = 0.0;
+    TravelPlan other = Planning(situation, bold, field_, predictor).run();
+    if (other.value > 0.0 || plan.status == TravelStatus::blocked) plan = std::move(other);
+  }
   plan.planning_ms = 1e3 * watch.seconds();
   return plan;
 }
