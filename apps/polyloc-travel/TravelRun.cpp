@@ -27,13 +27,25 @@ LastMetresParams drivenMetres() {
 constexpr std::size_t kMostOfOne = 100, kMostOfDrive = 50;
 /// A list that holds so much of the posterior is whole.
 constexpr double kWhole = 0.97;
-/// The weight that the answer must have by the last metres together ...
+/// The probability that an answer by the first scan alone must have: it is the last word.
+constexpr double kSureOfOne = 0.98;
+/// The weight that an answer must have by the last metres together.
 constexpr double kSure = 0.99;
-/// ... and the probability of a match. That is calibrated for one scan, and what the map does not
-/// have lowers it however many scans agree; it only bars answers that fit badly all along.
+/// The probability of a match is calibrated for one scan, and what the map does not have lowers it
+/// however many scans agree. After so long a drive [m] ...
+constexpr double kLongDrive = 3.0;
+/// ... it only bars answers that fit badly all along.
 constexpr double kLeastMatch = 0.4;
 /// From this probability that none of the hypotheses is right on nothing is made of them.
 constexpr double kLost = 0.7;
+
+double lengthOf(const ScanSet& drive) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < drive.moments().size(); ++i) {
+    length += drive.moments()[i].since_before.length();
+  }
+  return length;
+}
 
 HypothesisTrackerParams trackerParams() {
   HypothesisTrackerParams params;
@@ -160,7 +172,8 @@ std::optional<TPose2D> TravelRun::conclude(const ScanSet& drive) {
   if (!is_anchored_ || state.hypotheses.empty()) return std::nullopt;
   const TrackedHypothesis first = state.hypotheses.front();
   if (drive.single() != nullptr) {
-    const bool is_sure = searched_.status == LocalizationStatus::unique;
+    const bool is_sure =
+        searched_.status == LocalizationStatus::unique && first.weight >= kSureOfOne;
     return is_sure ? std::optional<TPose2D>(first.pose_map_robot) : std::nullopt;
   }
   if (state.status != LocalizationStatus::unique) return std::nullopt;
@@ -171,8 +184,9 @@ std::optional<TPose2D> TravelRun::conclude(const ScanSet& drive) {
       near += hypothesis.weight;
     }
   }
-  if (near >= kSure && searched_.match_probability >= kLeastMatch) return first.pose_map_robot;
-  return std::nullopt;
+  const bool is_known = searched_.status == LocalizationStatus::unique ||
+                        (lengthOf(drive) >= kLongDrive && searched_.match_probability >= kLeastMatch);
+  return near >= kSure && is_known ? std::optional<TPose2D>(first.pose_map_robot) : std::nullopt;
 }
 
 bool TravelRun::isLost() const {

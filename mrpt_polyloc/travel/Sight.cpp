@@ -18,6 +18,7 @@ constexpr double kWidestGap = 3.5 * kDegree;
 }  // namespace
 
 Sight::Sight(const std::vector<PlacedScan>& scans, double own_radius) {
+  std::size_t hits_of_newest = 0;
   for (const PlacedScan& placed : scans) {
     const RangeScan& scan = placed.scan;
     Rays rays{scan.beamFrameFromRobot(placed.pose), {}, {}};
@@ -57,7 +58,28 @@ Sight::Sight(const std::vector<PlacedScan>& scans, double own_radius) {
       rays.ranges[i] = all[i].second;
     }
     rays_.push_back(std::move(rays));
+    if (&placed == &scans.front()) hits_of_newest = hits_.size();
   }
+  if (rays_.empty() || hits_of_newest == 0) return;
+  const auto older = hits_.begin() + static_cast<std::ptrdiff_t>(hits_of_newest);
+  hits_.erase(std::remove_if(older, hits_.end(),
+                             [&](const TPoint2D& hit) { return seesThrough(rays_[0], hit); }),
+              hits_.end());
+}
+
+/// Whether rays close together pass a hit of another scan on all sides.
+bool Sight::seesThrough(const Rays& rays, const TPoint2D& hit) {
+  constexpr double kBeside = 0.08;          // [m]
+  constexpr std::ptrdiff_t kFewRays = 3;    // fewer might miss the leg of a table
+  const double dx = hit.x - rays.pose.x, dy = hit.y - rays.pose.y;
+  const double distance = std::hypot(dx, dy);
+  if (distance <= kBeside) return false;
+  const double direction = std::remainder(std::atan2(dy, dx) - rays.pose.phi, kTwoPi);
+  const double half = std::asin(kBeside / distance);
+  const auto first =
+      std::lower_bound(rays.bearings.begin(), rays.bearings.end(), direction - half);
+  const auto last = std::upper_bound(first, rays.bearings.end(), direction + half);
+  return last - first >= kFewRays && sees(rays, hit, kBeside);
 }
 
 bool Sight::seesDisc(const TPoint2D& centre, double radius) const {

@@ -20,11 +20,14 @@ struct POLYLOC_EXPORT PlacedScan {
 /// surroundings whatever map it is in.
 ///
 /// Up to each hit, and up to the sensor's maximum along a no-return, nothing stands; beams that say
-/// nothing have seen nothing, nor is anything known between beams far apart. (A no-return may be
+/// nothing have seen nothing, nor is anything known between beams far apart. What an older scan hit
+/// is gone where the newest sees through: wheels misplace older scans, and a door post that stands
+/// in the door closes it; people walk on. (A no-return may be
 /// glass: it counts as free here, as it does for the robot's own obstacle avoidance. Beams between
 /// two neighbours are not known of, so only discs are asked about.)
 class POLYLOC_EXPORT Sight {
  public:
+  /// \param scans the newest first
   /// \param own_radius the robot stood in each place: so much around it is free [m]
   explicit Sight(const std::vector<PlacedScan>& scans, double own_radius);
 
@@ -40,6 +43,7 @@ class POLYLOC_EXPORT Sight {
     std::vector<double> ranges;    ///< free up to here [m]
   };
   static bool sees(const Rays& rays, const mrpt::math::TPoint2D& centre, double radius);
+  static bool seesThrough(const Rays& rays, const mrpt::math::TPoint2D& hit);
 
   std::vector<Rays> rays_;
   std::vector<mrpt::math::TPoint2D> hits_;

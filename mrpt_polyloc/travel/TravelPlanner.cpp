@@ -196,6 +196,15 @@ class Planning {
     });
   }
 
+  /// Once is enough: where two ways are nearly as good it would turn to and fro.
+  bool hasTurnedHere() const {
+    constexpr double kHere = 0.05;  // [m]
+    return std::any_of(looked_.begin(), looked_.end(), [&](const TPose2D& before) {
+      return std::hypot(before.x, before.y) < kHere &&
+             angleBetween(before.phi, 0.0) > 0.5 * params_.most_turn;
+    });
+  }
+
   /// How the robot would come to a place: along its last step.
   double headingAt(const TPoint2D& place) const {
     return place.norm() < 1e-9 ? 0.0 : std::atan2(place.y, place.x);
@@ -321,7 +330,7 @@ class Planning {
     plan.waypoint = plan.goal;
     if (plan.path.size() > 1 && plan.distance > params_.longest_tight_leg) {
       const double bearing = headingAt(plan.path[1]);
-      if (std::abs(bearing) > params_.most_turn) {
+      if (std::abs(bearing) > params_.most_turn && !hasTurnedHere()) {
         plan.waypoint = TPose2D(0, 0, bearing);
         return;
       }
