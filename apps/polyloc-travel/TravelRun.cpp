@@ -55,6 +55,12 @@ HypothesisTrackerParams trackerParams() {
 
 }  // namespace
 
+GlobalLocalizerParams surerSearch() {
+  GlobalLocalizerParams params;
+  params.sure_probability = 1.0;
+  return params;
+}
+
 TravelRun::TravelRun(const TravelPlanner& planner, const GlobalLocalizer& localizer,
                      const World& world, const TPose2D& start, const TravelRunParams& params,
                      std::uint64_t seed)

@@ -63,6 +63,10 @@ struct TravelRunResult {
   std::vector<TPoint2D> way;  ///< where it truly went
 };
 
+/// What the localizer of such a robot is made with: where scans of a drive are judged together,
+/// each that may be searched is, or the right place might be missing from the list.
+GlobalLocalizerParams surerSearch();
+
 /// One robot in a closed loop: scan, tracker, planner, drive, until it knows where it is, knows
 /// that it cannot, or has had enough. Its wheels measure what they were told to do; the noise is in
 /// what the robot does. The same world, start and seed give the same run.

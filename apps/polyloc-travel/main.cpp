@@ -39,7 +39,7 @@ int simulate(const Program& program, const TravelOptions& options) {
   const World world(map, options.laser, options.clutter, radius, options.seed);
   if (options.start) requireRoom(world, *options.start, radius);
   const MapIndex::Ptr index = MapIndex::build(map);
-  const GlobalLocalizer localizer(index);
+  const GlobalLocalizer localizer(index, surerSearch());
   const TravelPlanner planner(index, options.planner);
 
   const std::size_t count = options.start ? 1 : static_cast<std::size_t>(options.count);

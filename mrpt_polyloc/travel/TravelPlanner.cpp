@@ -98,35 +98,55 @@ class Planning {
 
   /// \param least how far a place must be from all it looked from, to be gone to [m]
   TravelPlan explore(double least = 0.0) {
-    // From a place so far from all where it looked something new is seen.
-    constexpr double kNews = 2.0;  // [m]
     TravelPlan plan;
     plan.status = TravelStatus::blocked;
     if (!safe_.isStartFree() || reach() < kLeastReach) return turned();
+    // What is in no map may never end.
+    std::optional<SafeSet::Place> chosen = farthestNew(std::max(least, kNewPlace), true);
+    if (!chosen) chosen = farthestNew(least, false);
+    if (!chosen) return turned();
+    TravelValues::Value value;
+    value.pose = TPose2D(chosen->point.x, chosen->point.y, headingAt(chosen->point));
+    value.falls.assign(situation_.hypotheses.size(), 0.0);
+    take({std::move(value), chosen->distance}, plan);
+    return plan;
+  }
+
+ private:
+  /// The place that is the farthest from all it looked from, or far enough, and of these the one
+  /// that is the least effort; none if all are nearer than `least`.
+  std::optional<SafeSet::Place> farthestNew(double least, bool mapped_alone) const {
+    // From a place so far from all where it looked something new is seen.
+    constexpr double kNews = 2.0;  // [m]
     const Sight now({situation_.scans.front()}, ownRadius(params_));
-    SafeSet::Place chosen = safe_.reached().front();
-    double most = -1.0, best = 0.0;
+    std::optional<SafeSet::Place> chosen;
+    double most = least, best = 0.0;
     for (const SafeSet::Place& place : safe_.places(2.0 * params_.safe.square)) {
       if (place.distance > situation_.most_distance) continue;
+      if (mapped_alone && !isMapped(place.point)) continue;
       double apart = kNews;
       for (const TPose2D& before : looked_) {
         apart = std::min(apart, std::hypot(place.point.x - before.x, place.point.y - before.y));
       }
       const double effort = effortOf(place, now);
-      if (apart < most || (apart == most && effort >= best)) continue;
+      if (apart < most || (chosen && apart == most && effort >= best)) continue;
       most = apart;
       best = effort;
       chosen = place;
     }
-    if (most < least) return turned();
-    TravelValues::Value value;
-    value.pose = TPose2D(chosen.point.x, chosen.point.y, headingAt(chosen.point));
-    value.falls.assign(situation_.hypotheses.size(), 0.0);
-    take({std::move(value), chosen.distance}, plan);
-    return plan;
+    return chosen;
   }
 
- private:
+  /// Whether half of the hypotheses, by weight, have free space of the map here.
+  bool isMapped(const TPoint2D& place) const {
+    double for_it = 0.0, all = 0.0;
+    for (const Hypothesis& hypothesis : situation_.hypotheses) {
+      all += hypothesis.weight;
+      if (clearanceAt(field_, hypothesis.pose_map_robot, place) > 0.0) for_it += hypothesis.weight;
+    }
+    return 2.0 * for_it >= all;
+  }
+
   /// To look from where it is to where it has not looked, or `blocked`: a robot that stands before a
   /// wall with its only laser must turn to see how it gets away.
   TravelPlan turned() const {

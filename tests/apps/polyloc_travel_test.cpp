@@ -169,7 +169,7 @@ TEST(TravelRun, KeepsAccountOfWhatItDoes) {
   MapIndexParams one_thread;
   one_thread.threads = 1;
   const MapIndex::Ptr index = MapIndex::build(nicheCorridor(), one_thread);
-  const GlobalLocalizer localizer(index);
+  const GlobalLocalizer localizer(index, apps::surerSearch());
   TravelPlannerParams params;
   params.max_range = 4.0;
   const TravelPlanner planner(index, params);
