@@ -190,8 +190,9 @@ std::optional<TPose2D> TravelRun::conclude(const ScanSet& drive) {
       near += hypothesis.weight;
     }
   }
-  const bool is_known = searched_.status == LocalizationStatus::unique ||
-                        (lengthOf(drive) >= kLongDrive && searched_.match_probability >= kLeastMatch);
+  const bool is_known =
+      searched_.status == LocalizationStatus::unique ||
+      (lengthOf(drive) >= kLongDrive && searched_.match_probability >= kLeastMatch);
   return near >= kSure && is_known ? std::optional<TPose2D>(first.pose_map_robot) : std::nullopt;
 }
 

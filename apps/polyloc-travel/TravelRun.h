@@ -121,7 +121,7 @@ class TravelRun {
   ScanAccumulator last_metres_;
   Motion since_scan_;
   std::optional<mrpt::math::TPose2D> answer_;
-  LocalizationResult searched_;  ///< the last search of the last metres
+  LocalizationResult searched_;   ///< the last search of the last metres
   bool is_searched_now_ = false;  ///< ... up to the last scan
   bool is_anchored_ = false;      ///< the tracker began with a whole list
   bool is_over_ = false;

@@ -43,8 +43,8 @@ Json answerTravel(const Services& services, const RequestField& request, Jobs::T
     const std::string why = world.whyNoRoom({start.x, start.y}, radius);
     if (!why.empty()) throw ApiError(422, "not_free", "pose", "pose: " + why);
     return std::make_shared<Drive>(services.session.planner(index, robot.planner),
-                                   GlobalLocalizer(index, surerSearch()), std::move(world), start, robot.run,
-                                   laser.seed);
+                                   GlobalLocalizer(index, surerSearch()), std::move(world), start,
+                                   robot.run, laser.seed);
   });
   return drive->step(step, ticket.cancelled());
 }

@@ -71,8 +71,8 @@ struct POLYLOC_EXPORT TrackingState {
   /// LocalizationResult::listed; 0 if max_hypotheses were not enough for all that may be right. Far
   /// below 1 the robot may be where no hypothesis is, and who is left in the end need not be right.
   double listed = 0.0;
-  std::vector<std::uint64_t> dropped;         ///< by the last update(): hopeless ones
-  std::vector<std::uint64_t> merged;          ///< by the last update(): became one with a heavier
+  std::vector<std::uint64_t> dropped;  ///< by the last update(): hopeless ones
+  std::vector<std::uint64_t> merged;   ///< by the last update(): became one with a heavier
 };
 
 /// Follows hypotheses over a drive, without particles: the first scan is searched; then every

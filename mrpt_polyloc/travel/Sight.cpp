@@ -69,17 +69,20 @@ Sight::Sight(const std::vector<PlacedScan>& scans, double own_radius) {
 
 /// Whether rays close together pass a hit of another scan on all sides.
 bool Sight::seesThrough(const Rays& rays, const TPoint2D& hit) {
-  constexpr double kBeside = 0.08;          // [m]
-  constexpr std::ptrdiff_t kFewRays = 3;    // fewer might miss the leg of a table
+  constexpr double kBeside = 0.08;        // [m]
+  constexpr std::ptrdiff_t kFewRays = 3;  // fewer might miss the leg of a table
   const double dx = hit.x - rays.pose.x, dy = hit.y - rays.pose.y;
   const double distance = std::hypot(dx, dy);
   if (distance <= kBeside) return false;
   const double direction = std::remainder(std::atan2(dy, dx) - rays.pose.phi, kTwoPi);
   const double half = std::asin(kBeside / distance);
-  const auto first =
-      std::lower_bound(rays.bearings.begin(), rays.bearings.end(), direction - half);
-  const auto last = std::upper_bound(first, rays.bearings.end(), direction + half);
-  return last - first >= kFewRays && sees(rays, hit, kBeside);
+  std::ptrdiff_t beside = 0;
+  for (const double turn : {-kTwoPi, 0.0, kTwoPi}) {  // bearings end at pi
+    const auto first =
+        std::lower_bound(rays.bearings.begin(), rays.bearings.end(), direction + turn - half);
+    beside += std::upper_bound(first, rays.bearings.end(), direction + turn + half) - first;
+  }
+  return beside >= kFewRays && sees(rays, hit, kBeside);
 }
 
 bool Sight::seesDisc(const TPoint2D& centre, double radius) const {

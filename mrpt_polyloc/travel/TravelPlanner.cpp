@@ -147,8 +147,8 @@ class Planning {
     return 2.0 * for_it >= all;
   }
 
-  /// To look from where it is to where it has not looked, or `blocked`: a robot that stands before a
-  /// wall with its only laser must turn to see how it gets away.
+  /// To look from where it is to where it has not looked, or `blocked`: a robot that stands before
+  /// a wall with its only laser must turn to see how it gets away.
   TravelPlan turned() const {
     TravelPlan plan;
     plan.status = TravelStatus::blocked;

@@ -61,6 +61,16 @@ TEST_F(PolylocTravel, DrivesUntilItKnows) {
   EXPECT_THAT(readFile(path("run.svg")), AllOf(HasSubstr("</svg>"), HasSubstr("class=\"path\"")));
 }
 
+TEST_F(PolylocTravel, ALaserOfHalfACircleMayBeginBeforeAWall) {
+  const std::string map = write("map.wkt", kNicheCorridor);
+  for (const char* start : {"12,0.35,-90", "23.6,1,0"}) {
+    const json summary =
+        travel(map, {"--start", start, "--max-range", "4", "--fov", "180", "--beams", "181"});
+    EXPECT_EQ(summary["localized"], 1) << start;
+    EXPECT_EQ(summary["collisions"], 0) << start;
+  }
+}
+
 TEST_F(PolylocTravel, SaysRightlyThatASymmetricMapCannotBeTold) {
   const json summary =
       travel(write("map.wkt", kCorridor), {"-n", "3", "--seed", "2", "--max-range", "15"});

@@ -204,6 +204,60 @@ TEST_F(Tracker, LookingTwiceFromOnePlaceDecidesNothing) {
   EXPECT_EQ(tracker.state().status, LocalizationStatus::ambiguous);
 }
 
+TEST_F(Tracker, GoesOnWithWhatASearchOfADriveFound) {
+  const std::vector<TPose2D> way = wayOut(2.5);
+  Random random(4);
+  HypothesisTracker tracker(localizer_);
+  tracker.update(scanAt(map_, {11.0, 2.0, 0.0}, 1));  // elsewhere
+  std::vector<Moment> drive(1);
+  drive[0].scans = {scanAt(map_, way[0], 2)};
+  for (std::size_t i = 1; i < 6; ++i) {
+    drive.push_back({{scanAt(map_, way[i], static_cast<std::uint32_t>(i))},
+                     measured(way[i - 1], way[i], random),
+                     false});
+  }
+  const LocalizationResult found = localizer_.localize(ScanSet(drive));
+  ASSERT_GE(found.hypotheses.size(), 2U) << "the twin rooms";
+  const TrackingState& state = tracker.start(found);
+  expectConsistent(state);
+  EXPECT_TRUE(state.has_searched);
+  EXPECT_EQ(state.scans, 1U) << "it took none";
+  EXPECT_EQ(state.listed, found.listed);
+  EXPECT_NEAR(state.none_probability, 1.0 - std::min(found.match_probability * found.listed, 0.999),
+              1e-3);
+  for (const Hypothesis& hypothesis : found.hypotheses) {
+    if (hypothesis.weight < 1e-3) continue;  // hopeless
+    double least = 1e9;
+    for (const TrackedHypothesis& tracked : state.hypotheses) {
+      least = std::min(least, distanceBetween(tracked.pose_map_robot, hypothesis.pose_map_robot));
+    }
+    EXPECT_LT(least, 0.3);
+  }
+  // It follows them.
+  for (std::size_t i = 6; i < way.size(); ++i) {
+    tracker.move(measured(way[i - 1], way[i], random));
+    tracker.update(scanAt(map_, way[i], static_cast<std::uint32_t>(i)));
+  }
+  EXPECT_EQ(tracker.state().status, LocalizationStatus::unique);
+  EXPECT_LT(distanceBetween(tracker.state().hypotheses.front().pose_map_robot, way.back()), 0.05);
+  // Of what found nothing nothing is left.
+  EXPECT_EQ(tracker.start(LocalizationResult()).status, LocalizationStatus::too_few_beams);
+  EXPECT_TRUE(tracker.state().hypotheses.empty());
+}
+
+TEST_F(Tracker, SaysWhenItsListIsCut) {
+  HypothesisTrackerParams few;
+  few.max_hypotheses = 1;
+  HypothesisTracker cut(localizer_, few), whole(localizer_);
+  const RangeScan twin = scanAt(map_, {2.5, 1.0, -kPi / 2}, 1);
+  EXPECT_EQ(cut.update(twin).listed, 0.0);
+  EXPECT_GT(whole.update(twin).listed, 0.97);
+  // Two are enough where one is right, and who is behind it is hopeless.
+  few.max_hypotheses = 2;
+  HypothesisTracker enough(localizer_, few);
+  EXPECT_GT(enough.update(scanAt(map_, {14.0, 5.0, kPi}, 1)).listed, 0.97);
+}
+
 TEST_F(Tracker, RefusesParamsOutOfRange) {
   HypothesisTrackerParams params;
   params.most_odds = 0.5;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <tests/support/map_factories.h>
@@ -82,6 +83,32 @@ TEST(Sight, TakesNoReturnsAsFreeAndInvalidBeamsAsUnseen) {
   EXPECT_EQ(sight.hits().size(), 180u);
   EXPECT_FALSE(Sight({}, 0.25).seesDisc({0, 0}, 0.1));
   EXPECT_FALSE(Sight({{RangeScan({}), {0, 0, 0}}}, 0.25).seesDisc({0, 0}, 0.1));
+}
+
+TEST(Sight, ForgetsWhatTheNewestScanSeesThrough) {
+  const WallSegments walls(squareMap(10.0));
+  const TPose2D pose(5, 5, 0);
+  // An older scan hit something 2 m ahead and 2 m behind, or its place is not known so well.
+  const RangeScan older({{0.0, 2.0, BeamKind::hit}, {kPi, 2.0, BeamKind::hit}});
+  const auto hitsAt = [&](const RangeScan& newest, double x) {
+    const Sight sight({{newest, {0, 0, 0}}, {older, {0, 0, 0}}}, 0.25);
+    return std::any_of(sight.hits().begin(), sight.hits().end(),
+                       [&](const TPoint2D& hit) { return std::hypot(hit.x - x, hit.y) < 1e-9; });
+  };
+  EXPECT_FALSE(hitsAt(castScan(walls, pose, 360), 2.0));
+  EXPECT_FALSE(hitsAt(castScan(walls, pose, 360), -2.0));
+  const RangeScan ahead = castScan(walls, pose, 181, 30.0, kPi);
+  EXPECT_FALSE(hitsAt(ahead, 2.0));
+  EXPECT_TRUE(hitsAt(ahead, -2.0)) << "behind the newest scan's laser";
+  EXPECT_TRUE(hitsAt(castScan(walls, pose, 60), 2.0)) << "rays may pass a thin leg on both sides";
+  // What it hits itself stays, and so does what stands where its rays end.
+  EXPECT_EQ(Sight({{castScan(walls, pose, 360), {0, 0, 0}}}, 0.25).hits().size(), 360U);
+  EXPECT_EQ(
+      Sight({{castScan(walls, pose, 360), {0, 0, 0}}, {castScan(walls, pose, 360), {0, 0, 0}}},
+            0.25)
+          .hits()
+          .size(),
+      720U);
 }
 
 }  // namespace

@@ -214,6 +214,91 @@ TEST(TravelPlanner, ExploresWhereNothingIsKnown) {
   EXPECT_LT(plan.goal.x * other.goal.x, 0.0);
 }
 
+TEST(TravelPlanner, TurnsARobotThatSeesNothingButAWall) {
+  // Half a circle, 0.4 m before the corridor's end: nothing ahead, nothing known behind.
+  const PolygonMap map = corridor(false);
+  const TravelPlanner planner(indexOf(map), {});
+  TravelSituation situation;
+  situation.scans = {{castScan(WallSegments(map), {19.6, 1, 0}, 181, 4.0, kPi), {0, 0, 0}}};
+  std::vector<double> turns;
+  for (TravelPlan plan = planner.explore(situation); plan.status == TravelStatus::go;
+       plan = planner.explore(situation)) {
+    ASSERT_LT(turns.size(), 4U);
+    EXPECT_EQ(plan.waypoint.x, 0.0);
+    EXPECT_EQ(plan.waypoint.y, 0.0);
+    EXPECT_GT(std::abs(plan.waypoint.phi), 1.0);
+    for (const double before : turns) EXPECT_GT(angleBetween(plan.waypoint.phi, before), 1.0);
+    turns.push_back(plan.waypoint.phi);
+    situation.looked.push_back(plan.waypoint);  // as if it saw nothing there, either
+  }
+  EXPECT_EQ(turns.size(), 3U) << "then it has looked all around";
+  // One that sees all around has nothing to turn for.
+  std::vector<Beam> beams;
+  for (int k = 0; k < 360; ++k) beams.push_back({k * kDegree, 0.3, BeamKind::hit});
+  situation.scans = {{RangeScan(beams), {0, 0, 0}}};
+  EXPECT_EQ(planner.explore(situation).status, TravelStatus::blocked);
+}
+
+TEST(TravelPlanner, ExploresTheMapBeforeWhatIsInNone) {
+  // A room whose right side is open: what is beyond is seen, but in no map.
+  const std::vector<EdgeKind> kinds{EdgeKind::wall, EdgeKind::open, EdgeKind::wall, EdgeKind::wall};
+  const PolygonMap map({{Ring{rectangle(0, 0, 6, 4), kinds}, {}}});
+  const TravelPlanner planner(indexOf(map), {});
+  TravelSituation situation;
+  const TPose2D at(4.5, 2, 0);
+  situation.scans = {{castScan(WallSegments(map), at, 360, 8.0), {0, 0, 0}}};
+  situation.hypotheses = {hypothesisAt(at.x, at.y, at.phi, 1.0)};
+  situation.looked = {{-2.0, 0.0, 0.0}};
+  const TravelPlan inside = planner.explore(situation);
+  ASSERT_EQ(inside.status, TravelStatus::go);
+  EXPECT_TRUE(map.contains({at.x + inside.goal.x, at.y + inside.goal.y}));
+  // Who knows no map goes where it sees, and so does who has seen all of it.
+  TravelSituation lost = situation;
+  lost.hypotheses.clear();
+  for (double x = -4.0; x < 1.5; x += 0.5) {
+    for (double y = -1.5; y < 2.0; y += 0.5) situation.looked.emplace_back(x, y, 0.0);
+  }
+  for (const TravelSituation& one : {lost, situation}) {
+    const TravelPlan away = planner.explore(one);
+    ASSERT_EQ(away.status, TravelStatus::go);
+    EXPECT_FALSE(map.contains({at.x + away.goal.x, at.y + away.goal.y}));
+  }
+}
+
+TEST(TravelPlanner, DoubtsOfCentimetresDoNotCloseADoor) {
+  // Two equal rooms, each with a door of 0.68 m to a corridor in which they differ.
+  const PolygonMap map =
+      mapOf({{0, 0},    {4, 0},   {4, 3},   {2.365, 3},   {2.365, 3.2}, {7.635, 3.2}, {7.635, 3},
+             {6, 3},    {6, 0},   {10, 0},  {10, 3},      {8.315, 3},   {8.315, 3.2}, {10, 3.2},
+             {10, 5.2}, {0, 5.2}, {0, 3.2}, {1.685, 3.2}, {1.685, 3},   {0, 3}});
+  TravelSituation situation;
+  situation.scans = {{castScan(WallSegments(map), {2.025, 1, kPi / 2}, 360, 1.5), {0, 0, 0}}};
+  situation.hypotheses = {hypothesisAt(2.025, 1, kPi / 2, 0.5, 0.05),
+                          hypothesisAt(7.975, 1, kPi / 2, 0.5, 0.05)};
+  const TravelPlanner planner(indexOf(map), {});
+  EXPECT_FALSE(planner.safeSet(situation).isReached({3.0, 0.0})) << "by all doubts: closed";
+  const TravelPlan plan = planner.plan(situation);
+  ASSERT_EQ(plan.status, TravelStatus::go);
+  EXPECT_GT(plan.value, 0.5);
+  EXPECT_GT(plan.goal.x, 1.5) << "out of the door";
+}
+
+TEST(TravelPlanner, TurnsOnceBeforeAWay) {
+  const PolygonMap map = corridor(true);
+  const TravelPlanner planner(indexOf(map), {});
+  TravelSituation situation = twoEnds(map, 10.5);
+  situation.hypotheses = {hypothesisAt(10.5, 1, kPi / 2, 0.5), hypothesisAt(9.5, 1, -kPi / 2, 0.5)};
+  situation.scans = {{castScan(WallSegments(map), {10.5, 1, kPi / 2}, 360, 4.0), {0, 0, 0}}};
+  const TravelPlan first = planner.plan(situation);
+  ASSERT_EQ(first.status, TravelStatus::go);
+  EXPECT_EQ(first.way.size(), 1U) << "a turn by a quarter comes first";
+  // It has turned here already, and finds itself across the way again.
+  situation.looked = {{0, 0, -first.waypoint.phi}};
+  const TravelPlan then = planner.plan(situation);
+  ASSERT_EQ(then.status, TravelStatus::go);
+  EXPECT_GT(then.way.size(), 1U);
+}
+
 TEST(TravelPlanner, SaysThatARobotIsBlocked) {
   const PolygonMap map = corridor(true);
   TravelPlannerParams wide;
