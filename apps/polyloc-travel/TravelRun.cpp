@@ -31,13 +31,13 @@ constexpr double kWhole = 0.97;
 constexpr double kSureOfOne = 0.98;
 /// The weight that an answer must have by the last metres together.
 constexpr double kSure = 0.99;
-/// The probability of a match is calibrated for one scan, and what the map does not have lowers it
-/// however many scans agree. After so long a drive [m] ...
+/// What the map does not have lowers the probability of a match, the more so the more scans see it.
+/// After so long a drive [m] ...
 constexpr double kLongDrive = 3.0;
 /// ... it only bars answers that fit badly all along.
-constexpr double kLeastMatch = 0.4;
+constexpr double kLeastMatch = 0.25;
 /// From this probability that none of the hypotheses is right on nothing is made of them.
-constexpr double kLost = 0.7;
+constexpr double kLost = 0.9;
 
 double lengthOf(const ScanSet& drive) {
   double length = 0.0;

@@ -147,6 +147,13 @@ MatchFeatures featuresOf(const std::vector<ScoredWay>& ways, const ScoredWay& fi
   return features;
 }
 
+/// Each independent moment gives the odds of a match once: Bayes' rule for as many scans as the set
+/// is worth, of which the features are the mean.
+double ofAll(double of_one, double independent) {
+  const double some = std::pow(of_one, independent), none = std::pow(1.0 - of_one, independent);
+  return some + none > 0.0 ? some / (some + none) : of_one;
+}
+
 }  // namespace
 
 Assessment rankCandidates(const std::vector<TPose2D>& candidates, const ScanSet& set,
@@ -202,6 +209,7 @@ Assessment rankCandidates(const std::vector<TPose2D>& candidates, const ScanSet&
     result.hypotheses.clear();
     return result;
   }
+  result.match_probability = ofAll(result.match_probability, weights.independent);
   const double first_is_right = result.match_probability * result.hypotheses.front().weight;
   result.status = first_is_right >= calibration.unique_probability ? LocalizationStatus::unique
                                                                    : LocalizationStatus::ambiguous;
