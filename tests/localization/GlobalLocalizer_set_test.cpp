@@ -97,6 +97,39 @@ TEST_F(ScanSets, TheSameScanTwiceIsRankedAsOnce) {
   expectConsistent(twice);
 }
 
+TEST_F(ScanSets, IndependentMomentsGiveTheOddsOfAMatchOnceEach) {
+  // A third of the beams are cut short: it fits, but not so well that nothing is left to add.
+  ScanOptions options = halfCircle();
+  options.short_share = 0.35;
+  options.seed = 7;
+  const auto logOdds = [](double p) { return std::log(p / (1.0 - p)); };
+  const RangeScan scan = simulatedScan(localizer().map(), {1, 1, 0.4}, options);
+  const auto apart = [&](double metres) {
+    // The same scan, as if it were taken again so far on: only the wheels' word differs.
+    const MomentWeights weights(
+        ScanSet({{{scan}, {}, false}, {{scan}, measuredMotion({metres, 0, 0}), false}}), {});
+    return weights.independent;
+  };
+  ASSERT_NEAR(apart(0.0), 1.0, 1e-6);
+  ASSERT_GT(apart(3.0), 1.5);
+  const double alone = logOdds(localizer().localize(scan).match_probability);
+  const LocalizationResult still =
+      localizer().localize(ScanSet({{{scan}, {}, false}, {{scan}, {}, false}}));
+  EXPECT_NEAR(logOdds(still.match_probability), alone, 0.3) << "standing still adds nothing";
+  // Driven along, scan by scan: the odds of the mean features, to the power of their number.
+  Random random(2);
+  const std::vector<TPose2D> poses{{1, 1, 0.4}, {3, 1.2, 0.4}, {5, 1.4, 0.4}};
+  const ScanSet drive = setAlong(localizer().map(), poses, options, random);
+  const LocalizationResult moved = localizer().localize(drive);
+  ASSERT_TRUE(moved.features.has_value());
+  const double of_one =
+      localizer().params().hypotheses.calibration.matchProbability(*moved.features);
+  ASSERT_GT(of_one, 0.5);
+  ASSERT_LT(of_one, 1.0);
+  const double independent = MomentWeights(drive, localizer().params().correlation).independent;
+  EXPECT_NEAR(logOdds(moved.match_probability), independent * logOdds(of_one), 1e-6);
+}
+
 TEST_F(ScanSets, KeepToThePriorOfNow) {
   Random random(2);
   const std::vector<TPose2D> poses{{1, 1, 0}, {2, 1, 0.3}, {2.6, 1.4, 0.9}};
