@@ -1,12 +1,11 @@
 #pragma once
 
+#include "DriveBelief.h"
 #include "World.h"
-#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/evaluation/Summary.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/scan/Motion.h>
 #include <mrpt_polyloc/localization/scan/PosePrior.h>
-#include <mrpt_polyloc/localization/scan/ScanSet.h>
 #include <mrpt_polyloc/travel/HypothesisTracker.h>
 #include <mrpt_polyloc/travel/TravelPlanner.h>
 
@@ -18,9 +17,6 @@
 #include <vector>
 
 namespace mrpt_polyloc::apps {
-
-/// Within it, two hypotheses are the same place to a robot that plans where to look.
-inline constexpr Tolerance kSamePlace{0.5, 10.0 * kDegree};
 
 struct TravelRunParams {
   MotionNoise odometry;
@@ -63,10 +59,6 @@ struct TravelRunResult {
   std::vector<TPoint2D> way;  ///< where it truly went
 };
 
-/// What the localizer of such a robot is made with: where scans of a drive are judged together,
-/// each that may be searched is, or the right place might be missing from the list.
-GlobalLocalizerParams surerSearch();
-
 /// One robot in a closed loop: scan, tracker, planner, drive, until it knows where it is, knows
 /// that it cannot, or has had enough. Its wheels measure what they were told to do; the noise is in
 /// what the robot does. The same world, start and seed give the same run.
@@ -89,7 +81,7 @@ class TravelRun {
   const RangeScan& scan() const { return scans_.front().scan; }  ///< the last one
   /// What is known now: `unique` only where the robot is sure, see look().
   LocalizationStatus status() const;
-  double noneProbability() const { return tracker_.state().none_probability; }
+  double noneProbability() const { return belief_.state().none_probability; }
   /// What the last plan was made for.
   const TravelSituation& situation() const { return situation_; }
   /// Where the wheels believe to be, seen from the start.
@@ -97,35 +89,22 @@ class TravelRun {
 
  private:
   void decide();
-  PosePrior priorNow() const;
-  void follow(const ScanSet& drive);
-  void search(const ScanSet& drive);
-  std::optional<mrpt::math::TPose2D> conclude(const ScanSet& drive);
-  bool isLost() const;
   TravelSituation situationNow() const;
   TravelPlan makePlan() const;
   Motion move(const mrpt::math::TPose2D& told);
   void measureError();
 
   const TravelPlanner& planner_;
-  const GlobalLocalizer& localizer_;
   const World& world_;
   TravelRunParams params_;
-  HypothesisTracker tracker_;
+  DriveBelief belief_;
   Random noise_;
   std::uint64_t seed_;
   mrpt::math::TPose2D truth_;
   mrpt::math::TPose2D odometry_{0, 0, 0};    ///< as measured, from the start
   std::vector<PlacedScan> scans_;            ///< the last first, placed by odometry
   std::vector<mrpt::math::TPose2D> looked_;  ///< by odometry
-  ScanAccumulator last_metres_;
-  Motion since_scan_;
-  std::optional<mrpt::math::TPose2D> answer_;
-  LocalizationResult searched_;   ///< the last search of the last metres
-  bool is_searched_now_ = false;  ///< ... up to the last scan
-  bool is_anchored_ = false;      ///< the tracker began with a whole list
   bool is_over_ = false;
-  double turned_ = 0.0;  ///< as told, all turns [rad]
   int blocked_ = 0;
   TravelSituation situation_;
   TravelRunResult result_;

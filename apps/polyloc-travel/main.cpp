@@ -86,7 +86,8 @@ int plan(const Program& program, const TravelOptions& options) {
   params.most_distance = options.run.most_travel;
   params.seed = options.seed;
   const TravelPlanner planner(index, options.planner);
-  std::cout << nextWaypoint(planner, GlobalLocalizer(index), looks, params).dump(2) << '\n';
+  std::cout << nextWaypoint(planner, GlobalLocalizer(index, surerSearch()), looks, params).dump(2)
+            << '\n';
   return kDone;
 }
 

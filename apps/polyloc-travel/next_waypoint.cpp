@@ -1,8 +1,7 @@
 #include "next_waypoint.h"
 
+#include "DriveBelief.h"
 #include "plan_json.h"
-#include <mrpt_polyloc/base/angles.h>
-#include <mrpt_polyloc/travel/HypothesisTracker.h>
 
 #include <nlohmann/json.hpp>
 
@@ -19,23 +18,23 @@ using nlohmann::ordered_json;
 
 ordered_json nextWaypoint(const TravelPlanner& planner, const GlobalLocalizer& localizer,
                           const std::vector<Look>& looks, const NextWaypointParams& params) {
-  HypothesisTracker tracker(localizer, {}, params.prior);
+  DriveBelief belief(localizer, params.odometry, params.prior);
   std::vector<TPose2D> odometry;
   TPose2D at(0, 0, 0);
   for (const Look& look : looks) {
     if (!odometry.empty()) {
-      tracker.move(measuredMotion(look.moved, params.odometry));
+      belief.move(measuredMotion(look.moved, params.odometry), std::abs(look.moved.phi));
       at = at + look.moved;
     }
-    tracker.update(look.scan);
+    belief.look(look.scan);
     odometry.push_back(at);
   }
 
-  const TrackingState& state = tracker.state();
+  const TrackingState& state = belief.state();
   TravelSituation situation;
   ordered_json hypotheses = ordered_json::array();
   for (const TrackedHypothesis& tracked : state.hypotheses) {
-    situation.hypotheses.push_back(tracked.toHypothesis());
+    if (belief.isKnowing()) situation.hypotheses.push_back(tracked.toHypothesis());
     const TPose2D& pose = tracked.pose_map_robot;
     hypotheses.push_back(
         {{"x", pose.x}, {"y", pose.y}, {"phi", pose.phi}, {"weight", tracked.weight}});
@@ -49,16 +48,18 @@ ordered_json nextWaypoint(const TravelPlanner& planner, const GlobalLocalizer& l
   situation.most_distance = params.most_distance;
   situation.seed = params.seed;
 
-  const bool is_known = state.status == LocalizationStatus::unique;
+  const bool is_known = belief.answer().has_value();
   TravelPlan plan;
   if (!is_known) {
-    plan = state.status == LocalizationStatus::ambiguous ? planner.plan(situation)
-                                                         : planner.explore(situation);
+    plan = belief.isKnowing() ? planner.plan(situation) : planner.explore(situation);
     if (plan.status == TravelStatus::decided) plan = planner.explore(situation);
   }
   ordered_json json = toJson(plan);
   if (is_known) json["status"] = "unique";
-  json["localization"] = toString(state.status);
+  // As sure as the tracker may be, the last metres have not said so.
+  const LocalizationStatus tracked =
+      state.status == LocalizationStatus::unique ? LocalizationStatus::ambiguous : state.status;
+  json["localization"] = toString(is_known ? LocalizationStatus::unique : tracked);
   json["none_probability"] = state.none_probability;
   json["hypotheses"] = std::move(hypotheses);
   return json;

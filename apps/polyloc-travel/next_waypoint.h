@@ -27,8 +27,8 @@ struct NextWaypointParams {
   PosePrior prior;               ///< what is known of the pose of the first scan
 };
 
-/// Where a real robot is to drive next: its whole drive through HypothesisTracker, the last scan
-/// taken now. What is returned is told in README.md under `--plan`.
+/// Where a real robot is to drive next: its whole drive through DriveBelief, the last scan taken
+/// now. What is returned is told in README.md under `--plan`.
 /// \param looks at least one \throws InvalidParamsError
 nlohmann::ordered_json nextWaypoint(const TravelPlanner& planner, const GlobalLocalizer& localizer,
                                     const std::vector<Look>& looks,

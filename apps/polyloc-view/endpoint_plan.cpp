@@ -1,3 +1,4 @@
+#include "../polyloc-travel/DriveBelief.h"
 #include "../polyloc-travel/next_waypoint.h"
 #include "endpoints.h"
 #include <mrpt_polyloc/io/result_json.h>
@@ -26,8 +27,8 @@ Json answerPlan(const Services& services, const RequestField& request, Jobs::Tic
   if (const auto seed = request.find("seed")) params.seed = seed->count(0, 1ULL << 53U);
   const MapIndex::Ptr index = services.session.index(ticket.cancelled());
   ticket.enter();
-  Json json = nextWaypoint(*services.session.planner(index, robot.planner), GlobalLocalizer(index),
-                           looks, params);
+  Json json = nextWaypoint(*services.session.planner(index, robot.planner),
+                           GlobalLocalizer(index, surerSearch()), looks, params);
   ticket.check();
   json["map_hash"] = hashText(services.session.hash());
   return json;
