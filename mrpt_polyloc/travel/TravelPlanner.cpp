@@ -152,7 +152,11 @@ class Planning {
   TravelPlan turned() const {
     TravelPlan plan;
     plan.status = TravelStatus::blocked;
-    if (values_.seesAllAround()) return plan;
+    const std::vector<Beam>& beams = situation_.scans.front().scan.beams();
+    const bool is_blind = std::all_of(beams.begin(), beams.end(), [](const Beam& beam) {
+      return beam.kind == BeamKind::invalid;
+    });
+    if (values_.seesAllAround() || is_blind) return plan;
     for (const double turn : {0.5 * kPi, -0.5 * kPi, kPi}) {
       TravelValues::Value value;
       value.pose = TPose2D(0, 0, turn);

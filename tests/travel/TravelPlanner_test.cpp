@@ -232,6 +232,13 @@ TEST(TravelPlanner, TurnsARobotThatSeesNothingButAWall) {
     situation.looked.push_back(plan.waypoint);  // as if it saw nothing there, either
   }
   EXPECT_EQ(turns.size(), 3U) << "then it has looked all around";
+  // A laser that says nothing will say nothing elsewhere.
+  TravelSituation blind = situation;
+  blind.looked.clear();
+  blind.scans = {{RangeScan({{0.0, 0.0, BeamKind::invalid}, {0.1, 0.0, BeamKind::invalid}}), {}}};
+  TravelPlannerParams known;
+  known.max_range = 4.0;
+  EXPECT_EQ(TravelPlanner(indexOf(map), known).explore(blind).status, TravelStatus::blocked);
   // One that sees all around has nothing to turn for.
   std::vector<Beam> beams;
   for (int k = 0; k < 360; ++k) beams.push_back({k * kDegree, 0.3, BeamKind::hit});
