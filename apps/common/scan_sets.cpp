@@ -47,6 +47,16 @@ std::vector<RangeScan> firstScans(const DriveLog& drive) {
 
 namespace {
 
+/// \throws FormatError naming file and row where the drive is none: stamps that fall
+ScanSet lastMetresOf(const DriveLog& drive, std::size_t row, const LastMetresParams& last,
+                     const std::string& file) {
+  try {
+    return lastMetres(drive.moments, row, last);
+  } catch (const InvalidParamsError& error) {
+    throw FormatError(file, "row " + std::to_string(row), error.what());
+  }
+}
+
 /// Localizes rows of a drive, so many threads at a time.
 std::vector<LocalizedScan> localizeRows(
     const DriveLog& drive, const SetOptions& sets, const std::vector<std::size_t>& rows,
@@ -64,7 +74,7 @@ std::vector<LocalizedScan> localizeRows(
   std::optional<Progress> progress;
   if (!on_done) progress.emplace("scan", rows.size());
   const auto step = [&](std::size_t i) {
-    const ScanSet set = lastMetres(drive.moments, rows[i], last);
+    const ScanSet set = lastMetresOf(drive, rows[i], last, search.scans);
     const Stopwatch watch;
     take(set, localized[i]);
     localized[i].row = rows[i];

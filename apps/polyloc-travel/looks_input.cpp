@@ -1,5 +1,6 @@
 #include "looks_input.h"
 
+#include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/io/replay_log.h>
 #include <mrpt_polyloc/io/scan_files.h>
 
@@ -36,6 +37,13 @@ std::vector<Look> loadLooks(const Program& program, const TravelOptions& options
     }
   }
   program.note(options.scans, notes);
+  for (std::size_t i = 1; i < looks.size(); ++i) {
+    const double before = looks[i - 1].scan.stamp(), stamp = looks[i].scan.stamp();
+    if (stamp != 0.0 && stamp < before) {
+      throw FormatError(options.scans, "scan " + std::to_string(i),
+                        "it was taken before the one that it follows, by its stamp");
+    }
+  }
   const bool has_moved = std::any_of(looks.begin(), looks.end(), [](const Look& look) {
     return std::hypot(look.moved.x, look.moved.y) > 1e-6 || std::abs(look.moved.phi) > 1e-6;
   });

@@ -121,6 +121,16 @@ TEST_F(PolylocTravel, PlansForARealRobot) {
   EXPECT_GE(go["hypotheses"].size(), 2u);
 }
 
+TEST_F(PolylocTravel, RefusesADriveWhoseClockRunsBack) {
+  const std::string map = roomFile();
+  simulate("scans");
+  const std::string log = readFile(path("scans/scans.rawlog"));
+  const std::string twice = write("twice.rawlog", log + log);
+  const Outcome outcome = run("polyloc-travel", {"--plan", "--map", map, "--scans", twice});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("twice.rawlog: scan "), HasSubstr("by its stamp")));
+}
+
 TEST_F(PolylocTravel, NamesWhatIsWrong) {
   const std::string map = write("map.wkt", kCorridor);
   const std::string out = path("out");

@@ -106,6 +106,12 @@ TEST_F(ScanSetPrograms, WrongUseIsNamed) {
   const Outcome unknown = localize({"--sensor", "LASER,TAIL"});
   EXPECT_EQ(unknown.code, 1);
   EXPECT_THAT(unknown.err, HasSubstr("'"));
+  // A log begun again: its clock runs back.
+  const std::string log = readFile(path("drive.rawlog"));
+  write("drive.rawlog", log + log);
+  const Outcome back = localize({"--accumulate", "50"});
+  EXPECT_EQ(back.code, 1);
+  EXPECT_THAT(back.err, AllOf(HasSubstr("drive.rawlog: row "), HasSubstr("by its stamp")));
 }
 
 TEST_F(ScanSetPrograms, BothLasersOfCase15TellMoreThanOne) {
