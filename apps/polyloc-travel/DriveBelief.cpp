@@ -1,6 +1,7 @@
 #include "DriveBelief.h"
 
 #include <mrpt_polyloc/base/angles.h>
+#include <mrpt_polyloc/localization/ranking/MomentWeights.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,13 +29,21 @@ constexpr double kWhole = 0.97;
 constexpr double kSureOfOne = 0.98;
 /// The weight that an answer must have by the last metres together.
 constexpr double kSure = 0.99;
-/// What the map does not have lowers the probability of a match, the more so the more scans see it.
 /// After so long a drive [m] ...
 constexpr double kLongDrive = 3.0;
-/// ... it only bars answers that fit badly all along.
-constexpr double kLeastMatch = 0.25;
+/// ... the probability of a match, as of one scan, only bars answers that fit badly all along.
+constexpr double kLeastMatch = 0.4;
 /// From this probability that none of the hypotheses is right on nothing is made of them.
-constexpr double kLost = 0.9;
+constexpr double kLost = 0.7;
+
+/// The probability of a match of a drive as of its scans one by one. The robot is in this map, and
+/// what that does not have speaks against the right place at each look: that many looks agree on it
+/// is no word against the place.
+double matchOfOne(double match, double independent) {
+  const double some = std::pow(match, 1.0 / independent);
+  const double none = std::pow(1.0 - match, 1.0 / independent);
+  return some + none > 0.0 ? some / (some + none) : match;
+}
 
 double lengthOf(const ScanSet& drive) {
   double length = 0.0;
@@ -111,7 +120,11 @@ void DriveBelief::search(const ScanSet& drive) {
   SearchOptions options;
   options.max_hypotheses = drive.single() != nullptr ? kMostOfOne : kMostOfDrive;
   options.unite_valleys = false;
-  if (!is_searched_now_) searched_ = localizer_.localize(drive, priorNow(), options);
+  if (!is_searched_now_) {
+    searched_ = localizer_.localize(drive, priorNow(), options);
+    const MomentWeights weights(drive, localizer_.params().correlation);
+    searched_.match_probability = matchOfOne(searched_.match_probability, weights.independent);
+  }
   is_searched_now_ = true;
   const std::vector<Hypothesis>& found = searched_.hypotheses;
   const bool is_cut = found.size() == options.max_hypotheses &&

@@ -100,10 +100,20 @@ TravelSituation TravelRun::situationNow() const {
 }
 
 TravelPlan TravelRun::makePlan() const {
-  if (!belief_.isKnowing()) return planner_.explore(situation_);
+  if (!belief_.isKnowing()) return explore();
   TravelPlan plan = planner_.plan(situation_);
-  if (plan.status != TravelStatus::decided) return plan;
-  return planner_.explore(situation_);
+  return plan.status != TravelStatus::decided ? plan : explore();
+}
+
+/// By all scans that are kept; where those would not let it go, by the last ones alone: the wheels
+/// have misplaced the others the more the farther it drove.
+TravelPlan TravelRun::explore() const {
+  TravelPlan plan = planner_.explore(situation_);
+  const std::size_t recent = situation_.recent_scans;
+  if (plan.status != TravelStatus::blocked || situation_.scans.size() <= recent) return plan;
+  TravelSituation last = situation_;
+  last.scans.erase(last.scans.begin() + static_cast<std::ptrdiff_t>(recent), last.scans.end());
+  return planner_.explore(last);
 }
 
 void TravelRun::drive() {

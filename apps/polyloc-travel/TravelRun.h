@@ -91,6 +91,7 @@ class TravelRun {
   void decide();
   TravelSituation situationNow() const;
   TravelPlan makePlan() const;
+  TravelPlan explore() const;
   Motion move(const mrpt::math::TPose2D& told);
   void measureError();
 

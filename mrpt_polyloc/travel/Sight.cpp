@@ -15,6 +15,9 @@ using mrpt::math::TPose2D;
 /// coarsest lasers in use, of one degree, with a beam missing.
 constexpr double kWidestGap = 3.5 * kDegree;
 
+/// Nothing stands where the robot does, this share of its own radius around.
+constexpr double kWithinRobot = 0.8;
+
 }  // namespace
 
 Sight::Sight(const std::vector<PlacedScan>& scans, double own_radius) {
@@ -63,7 +66,12 @@ Sight::Sight(const std::vector<PlacedScan>& scans, double own_radius) {
   if (rays_.empty() || hits_of_newest == 0) return;
   const auto older = hits_.begin() + static_cast<std::ptrdiff_t>(hits_of_newest);
   hits_.erase(std::remove_if(older, hits_.end(),
-                             [&](const TPoint2D& hit) { return seesThrough(rays_[0], hit); }),
+                             [&](const TPoint2D& hit) {
+                               const TPose2D& robot = scans.front().pose;
+                               const double away = std::hypot(hit.x - robot.x, hit.y - robot.y);
+                               return away < kWithinRobot * own_radius ||
+                                      seesThrough(rays_[0], hit);
+                             }),
               hits_.end());
 }
 

@@ -21,8 +21,8 @@ struct POLYLOC_EXPORT PlacedScan {
 ///
 /// Up to each hit, and up to the sensor's maximum along a no-return, nothing stands; beams that say
 /// nothing have seen nothing, nor is anything known between beams far apart. What an older scan hit
-/// is gone where the newest sees through: wheels misplace older scans, and a door post that stands
-/// in the door closes it; people walk on. (A no-return may be
+/// is gone where the newest sees through, or the robot stands: wheels misplace older scans, and a
+/// door post that stands in the door closes it; people walk on. (A no-return may be
 /// glass: it counts as free here, as it does for the robot's own obstacle avoidance. Beams between
 /// two neighbours are not known of, so only discs are asked about.)
 class POLYLOC_EXPORT Sight {

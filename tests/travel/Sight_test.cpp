@@ -101,6 +101,11 @@ TEST(Sight, ForgetsWhatTheNewestScanSeesThrough) {
   EXPECT_FALSE(hitsAt(ahead, 2.0));
   EXPECT_TRUE(hitsAt(ahead, -2.0)) << "behind the newest scan's laser";
   EXPECT_TRUE(hitsAt(castScan(walls, pose, 60), 2.0)) << "rays may pass a thin leg on both sides";
+  // Where the robot stands nothing does, whatever its laser sees.
+  const RangeScan beside({{0.0, 0.1, BeamKind::hit}, {0.0, 0.28, BeamKind::hit}});
+  const RangeScan blind({{kPi, 1.0, BeamKind::hit}});
+  const Sight near({{blind, {0, 0, 0}}, {beside, {0, 0, 0}}}, 0.3);
+  EXPECT_EQ(near.hits().size(), 2U);
   // What it hits itself stays, and so does what stands where its rays end.
   EXPECT_EQ(Sight({{castScan(walls, pose, 360), {0, 0, 0}}}, 0.25).hits().size(), 360U);
   EXPECT_EQ(
