@@ -45,6 +45,14 @@ double matchOfOne(double match, double independent) {
   return some + none > 0.0 ? some / (some + none) : match;
 }
 
+/// Whether the pose is known well, too: who looks into the void has its heading from the wheels.
+bool isWellHeld(const Hypothesis& hypothesis) {
+  constexpr double kPosition = 0.12, kHeading = 2.0 * kDegree;  // [m], standard deviations
+  return hypothesis.covariance(0, 0) < kPosition * kPosition &&
+         hypothesis.covariance(1, 1) < kPosition * kPosition &&
+         hypothesis.covariance(2, 2) < kHeading * kHeading;
+}
+
 double lengthOf(const ScanSet& drive) {
   double length = 0.0;
   for (std::size_t i = 1; i < drive.moments().size(); ++i) {
@@ -156,7 +164,8 @@ std::optional<TPose2D> DriveBelief::conclude(const ScanSet& drive) {
   const bool is_known =
       searched_.status == LocalizationStatus::unique ||
       (lengthOf(drive) >= kLongDrive && searched_.match_probability >= kLeastMatch);
-  return near >= kSure && is_known ? std::optional<TPose2D>(first.pose_map_robot) : std::nullopt;
+  if (near < kSure || !is_known || !isWellHeld(searched_.hypotheses.front())) return std::nullopt;
+  return searched_.hypotheses.front().pose_map_robot;  // by all scans: surer than the tracker's
 }
 
 bool DriveBelief::isLost() const {
