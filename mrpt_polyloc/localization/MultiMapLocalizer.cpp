@@ -44,10 +44,12 @@ MultiMapResult MultiMapLocalizer::localize(const ScanSet& set, const PosePrior& 
     all.maps.assign(all.result.hypotheses.size(), 0);
     return all;
   }
-  const HypothesisParams& with = localizers_.front().params().hypotheses;
-  double map_error = 0.0;  // of the worst map
+  HypothesisParams with = localizers_.front().params().hypotheses;
+  double map_error = 0.0;  // of the worst map, as is the tolerance
   for (const GlobalLocalizer& localizer : localizers_) {
-    map_error = std::max(map_error, localizer.params().hypotheses.mapError());
+    const HypothesisParams& of_map = localizer.params().hypotheses;
+    map_error = std::max(map_error, of_map.mapError());
+    with.evidence.tolerance = std::max(with.evidence.tolerance, of_map.evidence.tolerance);
   }
   const MomentWeights weights(set, localizers_.front().params().correlation);
   // Rivals count even where they are not asked for.

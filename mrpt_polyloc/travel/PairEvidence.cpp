@@ -32,8 +32,9 @@ float PairEvidence::cost(float low, float high, float judged_low, float judged_h
                         ? static_cast<float>(caps.tau_none)
                         : 0.0F;
   if (low >= max_range_) return none;
-  const float beyond = std::min(low - judged_high, static_cast<float>(caps.tau_long));
-  const float before = std::min(judged_low - high, static_cast<float>(caps.tau_short));
+  const auto tolerance = static_cast<float>(params_.evidence.tolerance);
+  const float beyond = std::min(low - judged_high - tolerance, static_cast<float>(caps.tau_long));
+  const float before = std::min(judged_low - high - tolerance, static_cast<float>(caps.tau_short));
   const float hit = std::max(0.0F, std::max(beyond, before));
   return high >= max_range_ ? std::min(hit, none) : hit;
 }

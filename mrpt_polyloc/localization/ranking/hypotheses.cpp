@@ -18,6 +18,13 @@ bool isNear(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b,
          angleBetween(a.phi, b.phi) < params.merge_angle;
 }
 
+/// By how much a map's cells are larger than usual ones, in quadrature [m]: with those, what walls
+/// are off by is lost among the errors of lasers and poses, and in what was fitted on such maps.
+double beyondUsualCells(double cell_size) {
+  constexpr double kUsual = 0.05;  // [m]
+  return std::sqrt(std::max(0.0, cell_size * cell_size - kUsual * kUsual));
+}
+
 /// By how many standard errors the evidence `other` falls behind `best`.
 double zScore(const std::vector<float>& best, const std::vector<float>& other,
               const BeamSectors& sectors, double map_error) {
@@ -33,6 +40,9 @@ void HypothesisParams::check() const {
   requirePositive("merge_angle", merge_angle);
   requirePositive("indifference", indifference);
   requireNotNegative("cell_share", cell_share);
+  requireNotNegative("tolerance_share", tolerance_share);
+  requireNotNegative("position_share", position_share);
+  requireNotNegative("heading_share", heading_share);
   requireNotNegative("cell_size", cell_size);
   evidence.check();
   calibration.check();
@@ -41,11 +51,24 @@ void HypothesisParams::check() const {
 HypothesisParams HypothesisParams::of(const PolygonMap& map) const {
   HypothesisParams filled = *this;
   if (filled.cell_size == 0.0) filled.cell_size = map.cellSize();
+  if (filled.evidence.tolerance == 0.0) {
+    filled.evidence.tolerance = filled.tolerance_share * beyondUsualCells(filled.cell_size);
+  }
   return filled;
 }
 
 double HypothesisParams::mapError() const {
   return std::hypot(indifference, cell_share * cell_size);
+}
+
+mrpt::math::CMatrixDouble33 HypothesisParams::withMapError(
+    const mrpt::math::CMatrixDouble33& covariance) const {
+  const double more = std::pow(beyondUsualCells(cell_size), 2);
+  mrpt::math::CMatrixDouble33 widened = covariance;
+  widened(0, 0) += position_share * position_share * more;
+  widened(1, 1) += position_share * position_share * more;
+  widened(2, 2) += heading_share * heading_share * more;
+  return widened;
 }
 
 std::vector<ScoredPose> mergeNearPoses(std::vector<ScoredPose> poses,
@@ -92,8 +115,8 @@ std::vector<Hypothesis> toHypotheses(const std::vector<ScoredPose>& poses, const
   for (const std::size_t i : ranks) {
     Hypothesis hypothesis;
     hypothesis.pose_map_robot = scan.robotFromBeamFrame(poses[i].refined.pose_map_beams);
-    hypothesis.covariance =
-        covarianceOfRobot(poses[i].refined, scan, sectors.count(), params.calibration);
+    hypothesis.covariance = params.withMapError(
+        covarianceOfRobot(poses[i].refined, scan, sectors.count(), params.calibration));
     hypothesis.cost = poses[i].cost;
     hypothesis.z_score = z_scores[i];
     hypothesis.weight = std::exp(-params.calibration.weight_decay * z_scores[i]);

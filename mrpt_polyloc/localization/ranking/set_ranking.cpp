@@ -193,7 +193,7 @@ Assessment rankCandidates(const std::vector<TPose2D>& candidates, const ScanSet&
   for (const std::size_t i : ranks) {
     Hypothesis hypothesis;
     hypothesis.pose_map_robot = ways[i].now();
-    hypothesis.covariance = ways[i].refined.covariance;
+    hypothesis.covariance = params.hypotheses.withMapError(ways[i].refined.covariance);
     hypothesis.cost = ways[i].cost;
     hypothesis.z_score = z_scores[i];
     hypothesis.weight = std::exp(-calibration.weight_decay * z_scores[i]);

@@ -22,6 +22,10 @@ struct POLYLOC_EXPORT BeamEvidenceParams {
   double wall_sigma = 0.2;  ///< of that Gaussian [m]
   double thinning = 0.25;   ///< points in a square of this side count as one [m]
 
+  /// Of each difference of ranges so much is the map's own, and says nothing against a pose [m]:
+  /// localizers fill it in (HypothesisParams::tolerance_share).
+  double tolerance = 0.0;
+
   /// \throws InvalidParamsError naming the bad field.
   void check() const;
 };

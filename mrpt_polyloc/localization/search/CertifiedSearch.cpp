@@ -2,6 +2,7 @@
 #include <mrpt_polyloc/localization/search/CertifiedSearch.h>
 #include <mrpt_polyloc/localization/search/SeedPoses.h>
 #include <mrpt_polyloc/localization/search/TreeDescent.h>
+#include <mrpt_polyloc/localization/search/deeper_bottoms.h>
 #include <mrpt_polyloc/localization/search/settle_leaves.h>
 
 #include <algorithm>
@@ -28,25 +29,51 @@ unsigned leastUnits(const BandQuery& query, double meters) {
   return std::isfinite(meters) ? query.units(meters) : std::numeric_limits<unsigned>::max();
 }
 
+bool isCheaper(const PoseCandidate& a, const PoseCandidate& b) {
+  return a.cost < b.cost;
+}
+
 /// The least cost of poses once refined; those seen before are not refined again.
 class LeastRefined {
  public:
   explicit LeastRefined(const PoseScorer& scorer) : scorer_(scorer) {}
 
-  double cost() const { return least_; }
+  double cost() const { return least_.cost; }
+  const PoseCandidate& pose() const { return least_; }
   void take(const std::vector<PoseCandidate>& candidates) {
     for (const PoseCandidate& candidate : candidates) {
       const mrpt::math::TPose2D& pose = candidate.pose_map_beams;
       if (!seen_.emplace(pose.x, pose.y, pose.phi).second) continue;
-      least_ = std::min(least_, scorer_.costBelow(pose));
+      const std::optional<ScoredPose> found = scorer_.optimumBelow(pose);
+      if (found && found->cost < least_.cost) {
+        least_ = {found->refined.pose_map_beams, found->cost};
+      }
     }
   }
 
  private:
   const PoseScorer& scorer_;
   std::set<std::tuple<double, double, double>> seen_;
-  double least_ = std::numeric_limits<double>::infinity();
+  PoseCandidate least_{{}, std::numeric_limits<double>::infinity()};
 };
+
+/// The optima that may have the deepest bottom, cheapest first. \param settled cheapest first
+std::vector<PoseCandidate> deepestOf(const PoseCandidate& refined,
+                                     std::vector<PoseCandidate> settled) {
+  constexpr double kGain = 0.03;  // [m]: a bottom is mostly no more below the optimum
+  constexpr std::size_t kMost = 3;
+  if (std::isfinite(refined.cost)) settled.push_back(refined);
+  std::stable_sort(settled.begin(), settled.end(), isCheaper);
+  std::vector<PoseCandidate> deepest;
+  for (const PoseCandidate& optimum : settled) {
+    if (optimum.cost > settled.front().cost + kGain || deepest.size() == kMost) break;
+    const bool is_known = std::any_of(deepest.begin(), deepest.end(), [&](const auto& other) {
+      return areNearlyOne(optimum.pose_map_beams, other.pose_map_beams);
+    });
+    if (!is_known) deepest.push_back(optimum);
+  }
+  return deepest;
+}
 
 }  // namespace
 
@@ -114,13 +141,15 @@ CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
     SettledLeaves settled =
         settleLeaves(seeds, *certified, refined.cost(), query, scorer, budget, params);
     result.settled = settled.counts;
-    if (!settled.optima.empty()) {
-      result.least_cost = std::min(result.least_cost, settled.optima.front().cost);
-    }
     result.candidates.insert(result.candidates.end(), settled.optima.begin(), settled.optima.end());
-    std::stable_sort(
-        result.candidates.begin(), result.candidates.end(),
-        [](const PoseCandidate& a, const PoseCandidate& b) { return a.cost < b.cost; });
+    const std::vector<PoseCandidate> deepest = deepestOf(refined.pose(), settled.optima);
+    if (!deepest.empty()) result.least_cost = deepest.front().cost;
+    if (!deepest.empty() && !budget.isSpent()) {
+      const DeeperBottoms deeper = deeperBottoms(deepest, scorer);
+      result.least_cost = deeper.least;
+      result.candidates.insert(result.candidates.end(), deeper.ends.begin(), deeper.ends.end());
+    }
+    std::stable_sort(result.candidates.begin(), result.candidates.end(), isCheaper);
   }
   unsigned least_bound = *certified;
   for (const TreeDescent::Node& leaf : seeds.leaves()) {

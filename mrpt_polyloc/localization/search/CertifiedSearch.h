@@ -26,8 +26,8 @@ struct RemainingLeaf {
 };
 
 struct CertifiedSearchResult {
-  /// Starting points for refinement: the best first, then optima found when the regions were
-  /// settled.
+  /// Starting points for refinement, the best first: seeds, optima found when the regions were
+  /// settled, and the deeper bottoms beside the best of these.
   std::vector<PoseCandidate> candidates;
   /// Every pose that the prior allows whose search cost is at most `certified_cost` lies in one of
   /// these.

@@ -38,8 +38,16 @@ double PoseScorer::costAt(const mrpt::math::TPose2D& pose) const {
   return metric_ == SearchMetric::polar ? cost_.polarDistance(pose) : cost_.mean(pose);
 }
 
+double PoseScorer::costIfAllowed(const mrpt::math::TPose2D& pose) const {
+  return allowed_->contains(pose) ? costAt(pose) : std::numeric_limits<double>::infinity();
+}
+
+std::optional<ScoredPose> PoseScorer::optimumBelow(const mrpt::math::TPose2D& pose) const {
+  return near_descent_.descend(pose);
+}
+
 double PoseScorer::costBelow(const mrpt::math::TPose2D& pose) const {
-  const std::optional<ScoredPose> found = near_descent_.descend(pose);
+  const std::optional<ScoredPose> found = optimumBelow(pose);
   return found ? found->cost : std::numeric_limits<double>::infinity();
 }
 

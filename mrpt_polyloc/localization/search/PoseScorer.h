@@ -27,10 +27,14 @@ class PoseScorer {
 
   /// Of the pose itself [m].
   double costAt(const mrpt::math::TPose2D& pose_map_beams) const;
-  /// Of the pose that a descent from there ends near, within a centimetre or so [m]; infinity if it
-  /// meets none that is allowed.
+  /// The same; infinity if the pose is not allowed.
+  double costIfAllowed(const mrpt::math::TPose2D& pose_map_beams) const;
+  /// The pose that a descent from there ends near, within a centimetre or so, with its cost [m];
+  /// nothing if it meets none that is allowed.
+  std::optional<ScoredPose> optimumBelow(const mrpt::math::TPose2D& pose_map_beams) const;
+  /// Its cost [m]; infinity if there is none.
   double costBelow(const mrpt::math::TPose2D& pose_map_beams) const;
-  /// That pose, with its cost [m]; nothing if it meets none that is allowed, or if some steps with
+  /// The same pose; nothing if it meets none that is allowed, or if some steps with
   /// some beams lead to no cost below `promising` [m]. Takes a fraction of the time.
   std::optional<ScoredPose> nearOptimum(const mrpt::math::TPose2D& pose_map_beams,
                                         double promising) const;

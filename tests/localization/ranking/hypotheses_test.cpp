@@ -139,6 +139,33 @@ TEST(HypothesisParams, TheCellSizeIsTheMapsUnlessOneIsGiven) {
   HypothesisParams params;
   params.cell_size = 0.25;
   EXPECT_EQ(params.of(traced).cell_size, 0.25);
+  // And with it what of each difference of ranges is the map's.
+  EXPECT_EQ(HypothesisParams{}.of(PolygonMap(components)).evidence.tolerance, 0.0);
+  EXPECT_EQ(HypothesisParams{}.of(PolygonMap(components, {}, 0.05)).evidence.tolerance, 0.0);
+  params.tolerance_share = 0.5;
+  EXPECT_NEAR(params.of(traced).evidence.tolerance, 0.5 * std::sqrt(0.25 * 0.25 - 0.05 * 0.05),
+              1e-12);
+  params.evidence.tolerance = 0.03;
+  EXPECT_EQ(params.of(traced).evidence.tolerance, 0.03);
+}
+
+TEST_F(InASquare, PosesInMapsOfLargeCellsAreKnownTheWorse) {
+  HypothesisParams params;
+  const auto covariance = [&] { return hypothesesOf({at(truth_)}, params)[0].covariance; };
+  const auto drawn = covariance();
+  params.cell_size = 0.05;  // what the calibration was fitted on
+  EXPECT_EQ(covariance(), drawn);
+  params.cell_size = 0.25;
+  params.position_share = 0.5;
+  params.heading_share = 0.1;
+  const auto coarse = covariance();
+  const double more = 0.25 * 0.25 - 0.05 * 0.05;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      const double share = row != column ? 0.0 : row < 2 ? 0.5 * 0.5 : 0.1 * 0.1;
+      EXPECT_NEAR(coarse(row, column), drawn(row, column) + share * more, 1e-12);
+    }
+  }
 }
 
 TEST_F(InASquare, RankedByTheEvidenceWhateverTheOrder) {
@@ -189,6 +216,9 @@ TEST(HypothesisParams, ChecksNameTheField) {
   expectNamed(&HypothesisParams::merge_angle, "merge_angle");
   expectNamed(&HypothesisParams::indifference, "indifference");
   expectNamed(&HypothesisParams::cell_share, "cell_share");
+  expectNamed(&HypothesisParams::tolerance_share, "tolerance_share");
+  expectNamed(&HypothesisParams::position_share, "position_share");
+  expectNamed(&HypothesisParams::heading_share, "heading_share");
   expectNamed(&HypothesisParams::cell_size, "cell_size");
   HypothesisParams params;
   params.calibration.weight_decay = 0.0;
