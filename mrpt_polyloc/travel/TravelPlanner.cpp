@@ -220,13 +220,17 @@ class Planning {
     });
   }
 
-  /// Once is enough: where two ways are nearly as good it would turn to and fro.
-  bool hasTurnedHere() const {
+  /// Whether the last look but this was from here and turned: where two ways are nearly as good the
+  /// robot would turn to and fro.
+  bool hasJustTurned() const {
     constexpr double kHere = 0.05;  // [m]
-    return std::any_of(looked_.begin(), looked_.end(), [&](const TPose2D& before) {
-      return std::hypot(before.x, before.y) < kHere &&
-             angleBetween(before.phi, 0.0) > 0.5 * params_.most_turn;
-    });
+    const std::vector<TPose2D>& looked = situation_.looked;
+    for (std::size_t i = looked.size(); i-- > 0;) {
+      const bool is_here = std::hypot(looked[i].x, looked[i].y) < kHere;
+      if (!is_here) return false;
+      if (angleBetween(looked[i].phi, 0.0) > 0.5 * params_.most_turn) return true;
+    }
+    return false;
   }
 
   /// How the robot would come to a place: along its last step.
@@ -352,12 +356,16 @@ class Planning {
     constexpr double kInSight = 0.7;  // of the robot's radius: noise must not hide a door
     plan.way = {plan.path.front()};
     plan.waypoint = plan.goal;
+    double longest_leg = params_.longest_leg;
     if (plan.path.size() > 1 && plan.distance > params_.longest_tight_leg) {
+      constexpr double kLargeTurn = 100.0 * kDegree;  // the wheels have lost the heading
       const double bearing = headingAt(plan.path[1]);
-      if (std::abs(bearing) > params_.most_turn && !hasTurnedHere()) {
+      const bool is_turn = std::abs(bearing) > params_.most_turn;
+      if (is_turn && (std::abs(bearing) > kLargeTurn || !hasJustTurned())) {
         plan.waypoint = TPose2D(0, 0, bearing);
         return;
       }
+      if (is_turn) longest_leg = params_.longest_tight_leg;
     }
     double gone = 0.0;
     for (std::size_t i = 1; i < plan.path.size(); ++i) {
@@ -365,8 +373,7 @@ class Planning {
       const double length = along.norm();
       for (double at = kStep; at < length + kStep; at += kStep) {
         const TPoint2D here = from + along * std::min(1.0, at / length);
-        const double longest =
-            safe_.isRoomy(here) ? params_.longest_leg : params_.longest_tight_leg;
+        const double longest = safe_.isRoomy(here) ? longest_leg : params_.longest_tight_leg;
         const bool may_go = gone + at <= longest && safe_.isReached(here) &&
                             recent_sight_.seesDisc(here, kInSight * params_.safe.robot_radius);
         if (may_go) continue;

@@ -33,6 +33,12 @@ TravelPlannerParams with(TravelStrategy strategy) {
   return params;
 }
 
+double lengthOf(const std::vector<TPoint2D>& way) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < way.size(); ++i) length += (way[i] - way[i - 1]).norm();
+  return length;
+}
+
 MapIndex::Ptr indexOf(const PolygonMap& map) {
   MapIndexParams params;
   params.threads = 1;
@@ -303,7 +309,26 @@ TEST(TravelPlanner, TurnsOnceBeforeAWay) {
   situation.looked = {{0, 0, -first.waypoint.phi}};
   const TravelPlan then = planner.plan(situation);
   ASSERT_EQ(then.status, TravelStatus::go);
-  EXPECT_GT(then.way.size(), 1U);
+  ASSERT_GT(then.way.size(), 1U);
+  EXPECT_LE(lengthOf(then.way), planner.params().longest_tight_leg + 0.1)
+      << "the wheels may have lost the heading";
+  // That it turned here before it went elsewhere and came back is no reason to drive now.
+  situation.looked.push_back({1.0, 0.0, 0.0});
+  EXPECT_EQ(planner.plan(situation).way.size(), 1U);
+}
+
+TEST(TravelPlanner, LooksAfterALargeTurnInAnyCase) {
+  const PolygonMap map = corridor(true);
+  const TravelPlanner planner(indexOf(map), {});
+  TravelSituation situation = twoEnds(map, 10.5);
+  situation.hypotheses = {hypothesisAt(10.5, 1, kPi, 0.5), hypothesisAt(9.5, 1, 0, 0.5)};
+  situation.scans = {{castScan(WallSegments(map), {10.5, 1, kPi}, 360, 4.0), {0, 0, 0}}};
+  const TravelPlan first = planner.plan(situation);
+  ASSERT_EQ(first.status, TravelStatus::go);
+  ASSERT_EQ(first.way.size(), 1U);
+  EXPECT_GT(std::abs(first.waypoint.phi), 100.0 * kDegree);
+  situation.looked = {{0, 0, -first.waypoint.phi}};
+  EXPECT_EQ(planner.plan(situation).way.size(), 1U) << "it must not drive blindly";
 }
 
 TEST(TravelPlanner, SaysThatARobotIsBlocked) {
