@@ -48,15 +48,15 @@
 ///   office8/360/office8-0.2.yaml (150 scans)
 namespace mrpt_polyloc::default_calibration {
 
-constexpr double kMatchIntercept = -20.82632;
-constexpr double kLeastMatchProbability = 0.04130132;
-constexpr double kWeightDecay = 9.334537;
-constexpr double kUniqueProbability = 0.9298051;
-constexpr double kPositionFactor = 1.790434;
-constexpr double kHeadingFactor = 1.178409;
+constexpr double kMatchIntercept = -20.18455;
+constexpr double kLeastMatchProbability = 0.04895297;
+constexpr double kWeightDecay = 8.508405;
+constexpr double kUniqueProbability = 0.9154947;
+constexpr double kPositionFactor = 1.727113;
+constexpr double kHeadingFactor = 1.179686;
 /// explained, lead, heading, seen, on_walls
-constexpr std::array<double, 5> kMatchWeights = {1.228101, 10.6242, -1.292114, 3.643382, 11.14023};
+constexpr std::array<double, 5> kMatchWeights = {0.7423029, 10.62254, -1.220501, 4.096399, 10.65564};
 /// of kLostShares
-constexpr std::array<double, 8> kLostThresholds = {2.838163e-05, 0.04130132, 0.07736818, 0.1971761, 0.3913548, 0.5241123, 0.6291104, 0.7631415};
+constexpr std::array<double, 8> kLostThresholds = {5.230246e-05, 0.04895297, 0.1125124, 0.2621482, 0.376029, 0.5362039, 0.6458777, 0.7643518};
 
 }  // namespace mrpt_polyloc::default_calibration
