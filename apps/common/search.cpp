@@ -44,6 +44,8 @@ void checkMethod(const std::string& method) {
   throw UsageError("--method: unknown method '" + method + "'; there is: " + kMethods);
 }
 
+constexpr const char* kLargerLeaves = "take larger leaves by --leaf-size M; ";
+
 constexpr const char* kIndex = "index";
 constexpr const char* kTree = "tree";
 constexpr const char* kRobust = "robust";
@@ -148,8 +150,7 @@ ScanLocalizer shared(Localizer localizer, const SearchOptions& search, std::size
 ScanLocalizer makeGlobal(PolygonMap map, const SearchOptions& search) {
   GlobalLocalizerParams params;
   params.hypotheses = hypothesesOf(search);
-  requireMemory(search.map, map, indexParamsOf(search), search.max_memory,
-                "take larger leaves by --leaf-size M; ");
+  requireMemory(search.map, map, indexParamsOf(search), search.max_memory, kLargerLeaves);
   const MapIndex::Ptr index = makeIndex(std::move(map), search);
   const auto held = std::make_shared<const GlobalLocalizer>(index, params);
   ScanLocalizer localizer = shared(GlobalLocalizer(*held), search, index->bytes());
@@ -311,12 +312,20 @@ ScanLocalizer makeLocalizer(PolygonMap map, const SearchOptions& search, std::si
   return makeGlobal(std::move(map), search);
 }
 
-MultiMapSearch makeMultiMapSearch(std::vector<PolygonMap> maps, const SearchOptions& search) {
+MultiMapSearch makeMultiMapSearch(std::vector<PolygonMap> maps,
+                                  const std::vector<std::string>& names,
+                                  const SearchOptions& search) {
+  const MapIndexParams index_params = indexParamsOf(search);
+  std::optional<double> left = search.max_memory;
+  for (std::size_t m = 0; m < maps.size(); ++m) {
+    requireMemory(names[m], maps[m], index_params, left, kLargerLeaves);
+    if (left) *left -= MapIndex::estimate(maps[m], index_params).bytes / 1e6;
+  }
   std::vector<GlobalLocalizer> localizers;
   for (PolygonMap& map : maps) {
     GlobalLocalizerParams params;
     params.hypotheses = hypothesesOf(search);
-    localizers.emplace_back(MapIndex::build(std::move(map), indexParamsOf(search)), params);
+    localizers.emplace_back(MapIndex::build(std::move(map), index_params), params);
   }
   const auto held = std::make_shared<const MultiMapLocalizer>(std::move(localizers));
   return [held, options = optionsOf(search)](const ScanSet& set, const PosePrior& prior,

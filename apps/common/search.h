@@ -75,7 +75,9 @@ using MultiMapSearch = std::function<LocalizationResult(const ScanSet& set, cons
                                                         std::vector<std::size_t>& maps)>;
 
 /// The certified search over several maps.
-MultiMapSearch makeMultiMapSearch(std::vector<PolygonMap> maps, const SearchOptions& search);
+MultiMapSearch makeMultiMapSearch(std::vector<PolygonMap> maps,
+                                  const std::vector<std::string>& names,
+                                  const SearchOptions& search);
 
 /// What the method searches for: the scans of a log, with notes on what was assumed of it, or, for
 /// `exact`, the polygons of a WKT file (see loadViewPolygons()).

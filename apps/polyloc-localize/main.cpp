@@ -52,7 +52,7 @@ int localizeInMaps(const Program& program, const LocalizeOptions& options) {
   }
   const DriveLog drive = loadSearchedDrive(program, options.search, options.sets);
   const std::vector<std::size_t> rows = chosenRows(options, drive.moments.size());
-  const MultiMapSearch search = makeMultiMapSearch(std::move(maps), options.search);
+  const MultiMapSearch search = makeMultiMapSearch(std::move(maps), options.maps, options.search);
   const std::string csv = hypothesisCsv(
       localizeDrive(search, options.maps, drive, options.sets, rows, options.prior, options.search),
       true);

@@ -209,6 +209,25 @@ TEST_F(PolylocLocalize, RefusesAMapWhoseIndexWouldNotFit) {
   EXPECT_THAT(large.err, HasSubstr("810000 m2"));
 }
 
+TEST_F(PolylocLocalize, SeveralMapsShareTheMemory) {
+  simulate("sim");
+  const auto in_both = [this](const std::string& megabytes) {
+    return localize({"--map", roomFile(), "--rows", "0", "--max-memory", megabytes});
+  };
+  // What one of them takes, by the estimate that refuses it; two take twice that.
+  const Outcome one = localize({"--rows", "0", "--max-memory", "1"});
+  const Outcome refused = in_both("1");
+  EXPECT_EQ(one.code, 1);
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("room.wkt"), HasSubstr("--max-memory")));
+  std::size_t enough_for_one = 2;
+  while (localize({"--rows", "0", "--max-memory", std::to_string(enough_for_one)}).code != 0) {
+    ASSERT_LT(++enough_for_one, 100U);
+  }
+  EXPECT_EQ(in_both(std::to_string(enough_for_one)).code, 1);
+  EXPECT_EQ(in_both(std::to_string(2 * enough_for_one)).code, 0);
+}
+
 TEST_F(PolylocLocalize, LargerLeavesMakeASmallerIndexAndTheSameAnswer) {
   simulate("sim");
   const Outcome small = localize({"--rows", "0", "--index", path("small")});
