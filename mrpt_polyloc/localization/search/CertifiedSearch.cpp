@@ -57,25 +57,6 @@ class LeastRefined {
   PoseCandidate least_{{}, std::numeric_limits<double>::infinity()};
 };
 
-/// The optima that may have the deepest bottom, cheapest first. \param settled cheapest first
-std::vector<PoseCandidate> deepestOf(const PoseCandidate& refined,
-                                     std::vector<PoseCandidate> settled) {
-  constexpr double kGain = 0.03;  // [m]: a bottom is mostly no more below the optimum
-  // Three would cost up to half of a query more, and changed no first answer of the seven sets.
-  constexpr std::size_t kMost = 1;
-  if (std::isfinite(refined.cost)) settled.push_back(refined);
-  std::stable_sort(settled.begin(), settled.end(), isCheaper);
-  std::vector<PoseCandidate> deepest;
-  for (const PoseCandidate& optimum : settled) {
-    if (optimum.cost > settled.front().cost + kGain || deepest.size() == kMost) break;
-    const bool is_known = std::any_of(deepest.begin(), deepest.end(), [&](const auto& other) {
-      return areNearlyOne(optimum.pose_map_beams, other.pose_map_beams);
-    });
-    if (!is_known) deepest.push_back(optimum);
-  }
-  return deepest;
-}
-
 }  // namespace
 
 void CertifiedSearchParams::check() const {
@@ -143,10 +124,13 @@ CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
         settleLeaves(seeds, *certified, refined.cost(), query, scorer, budget, params);
     result.settled = settled.counts;
     result.candidates.insert(result.candidates.end(), settled.optima.begin(), settled.optima.end());
-    const std::vector<PoseCandidate> deepest = deepestOf(refined.pose(), settled.optima);
-    if (!deepest.empty()) result.least_cost = deepest.front().cost;
-    if (!deepest.empty() && !budget.isSpent()) {
-      const DeeperBottoms deeper = deeperBottoms(deepest, scorer);
+    PoseCandidate best = refined.pose();
+    if (!settled.optima.empty()) best = std::min(best, settled.optima.front(), isCheaper);
+    result.least_cost = best.cost;
+    if (std::isfinite(best.cost) && !budget.isSpent()) {
+      // Of the best alone: the next two, too, take up to half of a query more, and change no first
+      // answer of the seven sets.
+      const DeeperBottoms deeper = deeperBottoms({best}, scorer);
       result.least_cost = deeper.least;
       result.candidates.insert(result.candidates.end(), deeper.ends.begin(), deeper.ends.end());
     }

@@ -1,3 +1,4 @@
+#include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/localization/search/bound_costs.h>
 #include <mrpt_polyloc/localization/search/settle_leaves.h>
 
@@ -168,6 +169,12 @@ class Basins {
   std::vector<Point> order_;
 };
 
+/// Nearly the same optimum.
+bool isNear(const TPose2D& a, const TPose2D& b) {
+  constexpr double kNear = 0.05, kNearHeading = 0.02;  // [m], [rad]
+  return std::hypot(a.x - b.x, a.y - b.y) < kNear && angleBetween(a.phi, b.phi) < kNearHeading;
+}
+
 /// A leaf's bound by the bins of its window: never less than its own.
 unsigned boundByBins(const SeedPoses& leaves, std::size_t leaf, const BandQuery& query) {
   static_assert(kWindow == 2, "windows of leaves are of two bins");
@@ -223,7 +230,7 @@ SettledLeaves settleLeaves(SeedPoses& leaves, unsigned limit, double least, cons
     const TPose2D& pose = optimum->refined.pose_map_beams;
     const bool is_known = std::any_of(
         result.optima.begin(), result.optima.end(),
-        [&pose](const PoseCandidate& other) { return areNearlyOne(pose, other.pose_map_beams); });
+        [&pose](const PoseCandidate& other) { return isNear(pose, other.pose_map_beams); });
     if (!is_known) result.optima.push_back({pose, optimum->cost});
   }
   std::stable_sort(result.optima.begin(), result.optima.end(),
