@@ -131,6 +131,7 @@ mrpt_polyloc::SearchOptions optionsOf(const SearchOptions& search) {
   mrpt_polyloc::SearchOptions options;
   options.max_hypotheses = search.max_hypotheses;
   options.time_budget_ms = search.time_budget_ms;
+  options.threads = search.threads > 1 ? 0 : 1;  // as many as localizeScans() takes
   if (search.search_metric == kPolar) options.metric = SearchMetric::polar;
   return options;
 }
@@ -262,8 +263,8 @@ void addSearchOptions(CLI::App& options, SearchOptions& search) {
       "At most so many hypotheses a scan [default: " + std::to_string(search.max_hypotheses) + "]")
       ->type_name("N");
   addCount(options, "--threads", search.threads, 1, kMostThreads,
-           "Threads for the index and for scans at once [default: all cores for the index, one "
-           "scan at a time]")
+           "Threads for the index and for scans, several at once or one on all of them [default: "
+           "all cores for the index, one for a scan]")
       ->type_name("N");
   addText(options, "--calibration", search.calibration_file,
           "What costs mean for this sensor, from polyloc-calibrate [default: built in]")

@@ -35,8 +35,9 @@ struct SearchOptions {
   double time_budget_ms = 0.0;      ///< of the certified search; 0: none
   std::string search_metric = "robust";  ///< of the certified search
   std::uint64_t max_hypotheses = 20;
-  /// Threads for the index, and for scans at once; 0 (not given): all cores for the index, and one
-  /// scan after the other, so that the times of a scan mean something.
+  /// Threads for the index and for scans, several at once, or one scan on all that are free; 0 (not
+  /// given): all cores for the index, and one for a scan, so that the times of a scan mean
+  /// something.
   std::uint64_t threads = 0;
   std::string calibration_file;  ///< empty: `calibration` holds
   Calibration calibration;
@@ -92,8 +93,8 @@ struct LocalizedScan {
   std::vector<std::string> maps = {};  ///< of each hypothesis, where several maps are searched
 };
 
-/// Localizes the given rows, in that order, `search.threads` at a time. Results do not depend on
-/// the number of threads. \param on_done is told each scan as soon as it is done, by several
+/// Localizes the given rows, in that order, on `search.threads` threads. Results do not depend on
+/// their number. \param on_done is told each scan as soon as it is done, by several
 /// threads at once, and shows progress itself; none: progress is shown here
 std::vector<LocalizedScan> localizeScans(
     const ScanLocalizer& localizer, const std::vector<RangeScan>& scans,

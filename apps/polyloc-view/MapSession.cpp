@@ -86,6 +86,7 @@ LocalizationResult MapSession::localize(const ScanSet& scans, const SearchReques
   options.max_hypotheses = search.max_hypotheses;
   options.time_budget_ms = search.time_budget_ms;
   options.cancel = &cancelled;
+  options.threads = 0;  // somebody waits for it
   options.metric = search.metric;
   options.keep_regions = search.keep_regions;
   if (search.method == Method::exact) {

@@ -1,10 +1,10 @@
-#include <mrpt_polyloc/base/Budget.h>
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/geometry/Triangulation.h>
 #include <mrpt_polyloc/localization/CellLocalizer.h>
 #include <mrpt_polyloc/localization/MapIndexParts.h>
+#include <mrpt_polyloc/localization/answer_threads.h>
 #include <mrpt_polyloc/localization/nearest_cells/ViewIndex.h>
 #include <mrpt_polyloc/localization/nearest_cells/ViewTree.h>
 #include <mrpt_polyloc/localization/nearest_cells/cell_views.h>
@@ -121,12 +121,16 @@ LocalizationResult CellLocalizer::localize(const RangeScan& scan, const PosePrio
                                            const SearchOptions& options) const {
   prior.check();
   options.check();
+  if (options.threads > 1) {
+    return inOwnArena(options,
+                      [&](const SearchOptions& inside) { return localize(scan, prior, inside); });
+  }
   const CellLocalizerParams& params = impl_->params;
   LocalizationResult result;
   result.statistics.positions = impl_->viewpoints.size();
   if (scan.hitCount() < params.least_hits) return result;
   const Stopwatch watch;
-  const Budget budget(options.time_budget_ms, options.cancel);
+  const Budget budget = budgetOf(options);
   const std::optional<ScanView> view = viewOfScan(scan, params.view);
   if (!view) return result;
 

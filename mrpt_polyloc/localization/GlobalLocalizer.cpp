@@ -1,8 +1,8 @@
-#include <mrpt_polyloc/base/Budget.h>
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/MapIndexParts.h>
+#include <mrpt_polyloc/localization/answer_threads.h>
 #include <mrpt_polyloc/localization/ranking/candidate_ranking.h>
 #include <mrpt_polyloc/localization/scan/AllowedPoses.h>
 #include <mrpt_polyloc/localization/search/CertifiedSearch.h>
@@ -54,6 +54,7 @@ void GlobalLocalizerParams::check() const {
 void SearchOptions::check() const {
   requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e6);
   requireNotNegative("time_budget_ms", time_budget_ms);
+  requireInRange("threads", threads, 0.0, 1024.0);
 }
 
 GlobalLocalizer::GlobalLocalizer(MapIndex::Ptr index, GlobalLocalizerParams params)
@@ -72,8 +73,12 @@ LocalizationResult GlobalLocalizer::localize(const RangeScan& scan, const PosePr
   prior.check();
   options.check();
   if (scan.hitCount() < params_.least_hits) return {};
+  if (options.threads > 1) {
+    return inOwnArena(options,
+                      [&](const SearchOptions& inside) { return localize(scan, prior, inside); });
+  }
   const Stopwatch watch;
-  const Budget budget(options.time_budget_ms, options.cancel);
+  const Budget budget = budgetOf(options);
   const MapIndexParts& parts = index_->parts();
   const RangePredictor& predictor = parts.predictor();
   const SearchTree& tree = parts.tree();

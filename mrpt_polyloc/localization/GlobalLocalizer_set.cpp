@@ -1,8 +1,8 @@
-#include <mrpt_polyloc/base/Budget.h>
 #include <mrpt_polyloc/base/Stopwatch.h>
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/MapIndexParts.h>
+#include <mrpt_polyloc/localization/answer_threads.h>
 #include <mrpt_polyloc/localization/ranking/set_ranking.h>
 
 #include <algorithm>
@@ -93,8 +93,12 @@ LocalizationResult GlobalLocalizer::localize(const ScanSet& set, const PosePrior
   if (set.single() != nullptr) return localize(*set.single(), prior, options);
   prior.check();
   options.check();
+  if (options.threads > 1) {
+    return inOwnArena(options,
+                      [&](const SearchOptions& inside) { return localize(set, prior, inside); });
+  }
   const Stopwatch watch;
-  const Budget budget(options.time_budget_ms, options.cancel);
+  const Budget budget = budgetOf(options);
   const MapIndexParts& parts = index_->parts();
   const MomentWeights weights(set, params_.correlation);
 

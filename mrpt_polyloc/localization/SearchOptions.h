@@ -16,6 +16,9 @@ struct POLYLOC_EXPORT SearchOptions {
   double time_budget_ms = 0.0;
   /// Set by another thread to have the call return soon, as if its time were over; null: none.
   const std::atomic<bool>* cancel = nullptr;
+  /// Threads that find one answer, which is the same at any number; 0: those of the caller's TBB
+  /// arena, outside of any as many as there are cores.
+  int threads = 1;
   /// What the certified search minimises and certifies. Poses are ranked by the robust cost in any
   /// case.
   SearchMetric metric = SearchMetric::robust;

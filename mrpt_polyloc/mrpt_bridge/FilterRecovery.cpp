@@ -50,6 +50,7 @@ TLikelihoodOptions fitOptions() {
 
 void FilterRecoveryParams::check() const {
   requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e6);
+  requireInRange("search_threads", search_threads, 0.0, 1024.0);
   monitor.check();
   last_metres.check();
   requireInRange("share", share, 0.0, 1.0);
@@ -116,6 +117,7 @@ ScanSet FilterRecovery::lastMetresWith(RangeScan scan) {
 LocalizationResult FilterRecovery::search(const ScanSet& seen) const {
   SearchOptions options;
   options.max_hypotheses = params_.max_hypotheses;
+  options.threads = params_.search_threads;
   return localizer_->localize(seen, {}, options);
 }
 

@@ -39,6 +39,7 @@ struct POLYLOC_EXPORT FilterRecoveryParams {
   /// Scans with fewer hits are not judged: they fit almost everywhere.
   std::size_t least_hits = 15;
   std::size_t max_hypotheses = 20;  ///< of a search, so many are seeded or mixed in
+  int search_threads = 1;           ///< see SearchOptions::threads
   /// A search looks at all scans of the last so many metres, where move() tells how they were
   /// driven. Length 0: at the last scan alone.
   LastMetresParams last_metres = nowAlone();

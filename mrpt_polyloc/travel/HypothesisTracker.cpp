@@ -59,6 +59,7 @@ void HypothesisTrackerParams::check() const {
   requirePositive("most_standard_errors", most_standard_errors);
   requireInRange("least_weight", least_weight, 0.0, 0.1);
   requireInRange("max_hypotheses", static_cast<double>(max_hypotheses), 1.0, 1e4);
+  requireInRange("search_threads", search_threads, 0.0, 1024.0);
   requireInRange("lost_per_metre", lost_per_metre, 0.0, 1.0);
   requireInRange("least_none_probability", least_none_probability, 0.0, 0.5);
   requireInRange("search_probability", search_probability, 0.0, 1.0);
@@ -136,6 +137,7 @@ const TrackingState& HypothesisTracker::update(const std::vector<RangeScan>& sca
 void HypothesisTracker::search(const ScanSet& now) {
   SearchOptions options;
   options.max_hypotheses = params_.max_hypotheses;
+  options.threads = params_.search_threads;
   options.unite_valleys = false;  // the next scans may tell where in it
   const bool is_first = state_.status == LocalizationStatus::too_few_beams;
   const LocalizationResult found =

@@ -26,6 +26,7 @@ struct POLYLOC_EXPORT HypothesisTrackerParams {
   double most_standard_errors = 3.0;
   double least_weight = 1e-4;       ///< hypotheses that fall below this are hopeless, and dropped
   std::size_t max_hypotheses = 40;  ///< of a search, so many are followed
+  int search_threads = 1;           ///< see SearchOptions::threads
   /// Probability, for each metre driven, that the robot is carried elsewhere, or that what stands
   /// in the map moved.
   double lost_per_metre = 1e-3;

@@ -1,6 +1,6 @@
 // The search on generated floor plans with furniture, as a function of their area: seconds and MB
 // of the index, median and 90th percentile of ms per scan of 360 beams, clean, cluttered, with a
-// compass.
+// compass; and cluttered on all cores.
 #include "tests/support/BruteForceRays.h"
 #include "tests/support/random_maps.h"
 #include <mrpt_polyloc/base/angles.h>
@@ -37,6 +37,7 @@ struct Condition {
   double short_share = 0.0;  ///< of the beams, which end early
   int occluders = 0;         ///< contiguous, 8 to 19 degrees each
   bool has_compass = false;  ///< of 10 degrees
+  int threads = 1;           ///< of a search; 0: all cores
 };
 
 RangeScan scanAt(const test::BruteForceRays& rays, const TPose2D& pose, const Condition& condition,
@@ -79,6 +80,8 @@ double quantile(std::vector<double> values, double share) {
 void searchOnPlan(benchmark::State& state, double area, const Condition& condition) {
   const PolygonMap map = planOfArea(area);
   const GlobalLocalizer localizer(map);
+  SearchOptions options;
+  options.threads = condition.threads;
   const test::BruteForceRays rays(map);
   std::mt19937 random(1);
   std::size_t right = 0;
@@ -96,7 +99,7 @@ void searchOnPlan(benchmark::State& state, double area, const Condition& conditi
       prior.compass = PosePrior::Compass{pose.phi + 0.1, 10.0 * kPi / 180};
     }
     state.ResumeTiming();
-    const LocalizationResult result = localizer.localize(scan, prior);
+    const LocalizationResult result = localizer.localize(scan, prior, options);
     right += isRight(result, pose);
     ms.push_back(result.statistics.search_ms + result.statistics.refinement_ms);
     evaluated += static_cast<double>(result.statistics.evaluated);
@@ -125,7 +128,8 @@ const int registered = [] {
                                              {"10%short", 0.1},
                                              {"30%short", 0.3},
                                              {"10occluders", 0.0, 10},
-                                             {"10%short+compass", 0.1, 0, true}};
+                                             {"10%short+compass", 0.1, 0, true},
+                                             {"10%short+cores", 0.1, 0, false, 0}};
   for (const int area : {100, 400, 1600, 6400, 10000}) {
     for (const Condition& condition : conditions) add(area, condition);
   }

@@ -122,6 +122,9 @@ TEST(SearchOptions, ChecksNameTheField) {
   options.max_hypotheses = 0;
   EXPECT_THAT(complaintOf(options), HasSubstr("max_hypotheses"));
   options = {};
+  options.threads = -1;
+  EXPECT_THAT(complaintOf(options), HasSubstr("threads"));
+  options = {};
   for (const double bad : {-1.0, kNaN}) {
     options.time_budget_ms = bad;
     EXPECT_THAT(complaintOf(options), HasSubstr("time_budget_ms"));

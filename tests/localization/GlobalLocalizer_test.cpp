@@ -5,6 +5,7 @@
 #include <mrpt_polyloc/base/errors.h>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <atomic>
@@ -160,6 +161,56 @@ TEST(GlobalLocalizer, AnswersDoNotDependOnThreadsOrTheRun) {
     const auto first = a.localize(scan);
     expectSame(first, a.localize(scan));
     expectSame(first, b.localize(scan));
+  }
+}
+
+TEST(GlobalLocalizer, OneAnswerIsTheSameOnAnyNumberOfThreads) {
+  FloorPlanParams plan;
+  plan.rooms_per_side = 2;
+  plan.furniture_per_room = 2;
+  plan.unknown_share = 0.5;
+  const PolygonMap map = floorPlan(plan, 4);
+  const GlobalLocalizer localizer(map);
+  std::mt19937 random(4);
+  ScanOptions kind;
+  kind.sigma = 0.02;
+  kind.short_share = 0.2;
+  SearchOptions options;
+  options.keep_regions = true;
+  std::vector<RangeScan> scans;
+  std::vector<LocalizationResult> expected;
+  for (const TPoint2D& p : randomFreePoints(map, 4, random)) {
+    kind.seed = static_cast<std::uint32_t>(random());
+    scans.push_back(simulatedScan(map, {p.x, p.y, 0.4}, kind));
+    expected.push_back(localizer.localize(scans.back(), {}, options));
+  }
+  const auto expect_same = [&](const LocalizationResult& found, std::size_t i) {
+    expectSame(found, expected[i]);
+    ASSERT_TRUE(found.certificate && expected[i].certificate);
+    const Certificate &a = *found.certificate, &b = *expected[i].certificate;
+    EXPECT_EQ(a.cost, b.cost);
+    EXPECT_EQ(a.least, b.least);
+    EXPECT_EQ(a.at_least, b.at_least);
+    EXPECT_EQ(a.settled.bounded, b.settled.bounded);
+    EXPECT_EQ(a.settled.distant, b.settled.distant);
+    EXPECT_EQ(a.settled.lowered, b.settled.lowered);
+    EXPECT_EQ(a.settled.drained, b.settled.drained);
+    ASSERT_EQ(found.regions.size(), expected[i].regions.size());
+    for (std::size_t k = 0; k < found.regions.size(); ++k) {
+      EXPECT_EQ(found.regions[k].polygon, expected[i].regions[k].polygon);
+      EXPECT_EQ(found.regions[k].bound, expected[i].regions[k].bound);
+    }
+  };
+  const tbb::global_control three(tbb::global_control::max_allowed_parallelism, 3);
+  for (const int threads : {0, 2, 3}) {
+    SCOPED_TRACE(threads);
+    options.threads = threads;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      expect_same(localizer.localize(scans[i], {}, options), i);
+    }
+    // And several at once, each on all threads that are free.
+    const std::vector<LocalizationResult> together = localizer.localize(scans, {}, options);
+    for (std::size_t i = 0; i < scans.size(); ++i) expect_same(together[i], i);
   }
 }
 

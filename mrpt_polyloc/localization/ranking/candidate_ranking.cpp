@@ -41,12 +41,19 @@ std::vector<ScoredPose> refine(const std::vector<mrpt::math::TPose2D>& candidate
   const PoseRefiner coarse(predictor, scan, near_enough, kCoarseBeams);
   const PoseRefiner fine(predictor, scan, params.refinement);
   const PoseDescent coarse_descent(coarse, allowed, cost_at), fine_descent(fine, allowed, cost_at);
+  std::vector<std::optional<ScoredPose>> ends(candidates.size());
+  budget.forEach(candidates.size(), 1, [&](std::size_t i) {
+    if (!budget.isSpent()) ends[i] = coarse_descent.descend(candidates[i]);
+  });
   std::vector<ScoredPose> poses;
   poses.reserve(candidates.size());
-  for (const mrpt::math::TPose2D& candidate : candidates) {
-    if (!poses.empty() && budget.isSpent()) break;
-    const std::optional<ScoredPose> found = coarse_descent.descend(candidate);
-    if (found) poses.push_back(*found);
+  for (const std::optional<ScoredPose>& end : ends) {
+    if (end) poses.push_back(*end);
+  }
+  // Without any time left one pose at least.
+  for (std::size_t i = 0; poses.empty() && i < candidates.size(); ++i) {
+    const std::optional<ScoredPose> end = coarse_descent.descend(candidates[i]);
+    if (end) poses.push_back(*end);
   }
   poses = mergeNearPoses(std::move(poses), params.hypotheses);
   // Rivals count even where they are not asked for: one hypothesis may be all that is returned.
@@ -56,11 +63,12 @@ std::vector<ScoredPose> refine(const std::vector<mrpt::math::TPose2D>& candidate
   // Those that cost much more than the best will not become it.
   constexpr double kWorthShare = 1.25, kWorthMargin = 0.03;  // measured, [m]
   const double most_cost = poses.empty() ? 0.0 : kWorthShare * poses.front().cost + kWorthMargin;
-  for (ScoredPose& pose : poses) {
-    if (pose.cost > most_cost || budget.isSpent()) break;
-    const std::optional<ScoredPose> found = fine_descent.descend(pose.refined.pose_map_beams);
-    if (found && found->cost < pose.cost) pose = *found;
-  }
+  budget.forEach(poses.size(), 1, [&](std::size_t i) {
+    ScoredPose& pose = poses[i];
+    if (pose.cost > most_cost || budget.isSpent()) return;
+    const std::optional<ScoredPose> end = fine_descent.descend(pose.refined.pose_map_beams);
+    if (end && end->cost < pose.cost) pose = *end;
+  });
   poses = mergeNearPoses(std::move(poses), params.hypotheses);
   return poses;
 }

@@ -87,11 +87,21 @@ std::vector<ScoredWay> refine(const std::vector<TPose2D>& candidates, const Scan
   const Calibration& calibration = params.hypotheses.calibration;
   const SetRefiner coarse(predictor, set, weights, near_enough, calibration, kCoarseBeams);
   const SetRefiner fine(predictor, set, weights, params.refinement, calibration);
+  const auto descent = [&](std::size_t i) {
+    return descend(coarse.wayTo(candidates[i]), coarse, evidence, allowed);
+  };
+  std::vector<std::optional<ScoredWay>> ends(candidates.size());
+  budget.forEach(candidates.size(), 1, [&](std::size_t i) {
+    if (!budget.isSpent()) ends[i] = descent(i);
+  });
   std::vector<ScoredWay> ways;
-  for (const TPose2D& candidate : candidates) {
-    if (!ways.empty() && budget.isSpent()) break;
-    std::optional<ScoredWay> found = descend(coarse.wayTo(candidate), coarse, evidence, allowed);
-    if (found) ways.push_back(std::move(*found));
+  for (std::optional<ScoredWay>& end : ends) {
+    if (end) ways.push_back(std::move(*end));
+  }
+  // Without any time left one way at least.
+  for (std::size_t i = 0; ways.empty() && i < candidates.size(); ++i) {
+    std::optional<ScoredWay> end = descent(i);
+    if (end) ways.push_back(std::move(*end));
   }
   ways = mergeNear(std::move(ways), params.hypotheses);
   constexpr std::size_t kLeastRivals = 20;
@@ -99,11 +109,12 @@ std::vector<ScoredWay> refine(const std::vector<TPose2D>& candidates, const Scan
   if (ways.size() > kept) ways.resize(kept);
   constexpr double kWorthShare = 1.25, kWorthMargin = 0.03;  // as for one scan, [m]
   const double most_cost = ways.empty() ? 0.0 : kWorthShare * ways.front().cost + kWorthMargin;
-  for (ScoredWay& way : ways) {
-    if (way.cost > most_cost || budget.isSpent()) break;
-    std::optional<ScoredWay> found = descend(way.refined.poses, fine, evidence, allowed);
-    if (found && found->cost < way.cost) way = std::move(*found);
-  }
+  budget.forEach(ways.size(), 1, [&](std::size_t i) {
+    ScoredWay& way = ways[i];
+    if (way.cost > most_cost || budget.isSpent()) return;
+    std::optional<ScoredWay> end = descend(way.refined.poses, fine, evidence, allowed);
+    if (end && end->cost < way.cost) way = std::move(*end);
+  });
   return mergeNear(std::move(ways), params.hypotheses);
 }
 

@@ -1,7 +1,7 @@
 #include <mrpt_polyloc/base/params_check.h>
 #include <mrpt_polyloc/localization/search/CertifiedSearch.h>
+#include <mrpt_polyloc/localization/search/ForestDescent.h>
 #include <mrpt_polyloc/localization/search/SeedPoses.h>
-#include <mrpt_polyloc/localization/search/TreeDescent.h>
 #include <mrpt_polyloc/localization/search/deeper_bottoms.h>
 #include <mrpt_polyloc/localization/search/settle_leaves.h>
 
@@ -36,23 +36,27 @@ bool isCheaper(const PoseCandidate& a, const PoseCandidate& b) {
 /// The least cost of poses once refined; those seen before are not refined again.
 class LeastRefined {
  public:
-  explicit LeastRefined(const PoseScorer& scorer) : scorer_(scorer) {}
+  LeastRefined(const PoseScorer& scorer, const Budget& budget) : scorer_(scorer), budget_(budget) {}
 
   double cost() const { return least_.cost; }
   const PoseCandidate& pose() const { return least_; }
   void take(const std::vector<PoseCandidate>& candidates) {
+    std::vector<mrpt::math::TPose2D> starts;
     for (const PoseCandidate& candidate : candidates) {
       const mrpt::math::TPose2D& pose = candidate.pose_map_beams;
-      if (!seen_.emplace(pose.x, pose.y, pose.phi).second) continue;
-      const std::optional<ScoredPose> found = scorer_.optimumBelow(pose);
-      if (found && found->cost < least_.cost) {
-        least_ = {found->refined.pose_map_beams, found->cost};
-      }
+      if (seen_.emplace(pose.x, pose.y, pose.phi).second) starts.push_back(pose);
+    }
+    std::vector<std::optional<ScoredPose>> ends(starts.size());
+    budget_.forEach(starts.size(), 1,
+                    [&](std::size_t i) { ends[i] = scorer_.optimumBelow(starts[i]); });
+    for (const std::optional<ScoredPose>& end : ends) {
+      if (end && end->cost < least_.cost) least_ = {end->refined.pose_map_beams, end->cost};
     }
   }
 
  private:
   const PoseScorer& scorer_;
+  const Budget& budget_;
   std::set<std::tuple<double, double, double>> seen_;
   PoseCandidate least_{{}, std::numeric_limits<double>::infinity()};
 };
@@ -75,26 +79,23 @@ CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
                                  const CertifiedSearchParams& params) {
   CertifiedSearchResult result;
   if (query.beams.empty()) return result;
-  thread_local TreeDescent::Workspace workspace;
-  TreeDescent descent(tree, query, prior, sensor, workspace);
-  const auto is_spent = [&] {
-    return budget.isSpent() || (params.max_nodes > 0 && descent.evaluated() >= params.max_nodes);
-  };
+  thread_local ForestDescent::Workspace workspace;
+  ForestDescent descent(tree, query, prior, sensor, budget, params.max_nodes, workspace);
 
   // The first limits are below what noise alone costs: few leaves are within them, the right one
   // mostly among them, as bounds are well below costs.
   constexpr double kFirstLimit = 0.01;  // [m]
   constexpr std::size_t kGreedyWidth = 64;
   SeedPoses seeds(tree, query, params);
-  LeastRefined refined(scorer);
+  LeastRefined refined(scorer, budget);
   std::optional<unsigned> certified;
   unsigned limit = query.units(kFirstLimit);
   for (;;) {
-    result.is_complete = descent.expandUpTo(limit, is_spent, seeds.leaves());
+    result.is_complete = descent.expandUpTo(limit, seeds.leaves());
     if (!result.is_complete && seeds.leaves().empty()) {
       descent.greedyDescent(kGreedyWidth, seeds.leaves());
     }
-    seeds.evaluate();
+    seeds.evaluate(budget);
     if (!result.is_complete) break;
     refined.take(seeds.best(kRefined));
     const double least = refined.cost();
@@ -130,7 +131,7 @@ CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
     if (std::isfinite(best.cost) && !budget.isSpent()) {
       // Of the best alone: the next two, too, take up to half of a query more, and change no first
       // answer of the seven sets.
-      const DeeperBottoms deeper = deeperBottoms({best}, scorer);
+      const DeeperBottoms deeper = deeperBottoms({best}, scorer, budget);
       result.least_cost = deeper.least;
       result.candidates.insert(result.candidates.end(), deeper.ends.begin(), deeper.ends.end());
     }

@@ -38,19 +38,28 @@ void SeedPoses::tryAllHeadings(std::size_t i) {
   }
 }
 
-void SeedPoses::evaluate() {
-  for (std::size_t i = costs_.size(); i < leaves_.size(); ++i) {
-    const SearchTree::View view = tree_.middleView(leaves_[i].index);
-    // The window's middle first; the rest of it where that is not far off.
-    const std::uint32_t middle = leaves_[i].heading + kHalfWindow;
-    costs_.push_back(viewCost(view, query_, middle % kBandBins));
-    headings_.push_back(middle % kBandBins);
-    least_ = std::min(least_, costs_[i]);
-    constexpr double kNotFarOff = 1.2;
-    if (costs_[i] > kNotFarOff * limit()) continue;
-    tryAllHeadings(i);
-    least_ = std::min(least_, costs_[i]);
-  }
+void SeedPoses::evaluate(const Budget& budget) {
+  const std::size_t first = costs_.size(), count = leaves_.size() - first;
+  costs_.resize(leaves_.size());
+  headings_.resize(leaves_.size());
+  constexpr std::size_t kLeastInARow = 256;
+  budget.forEach(count, kLeastInARow, [&](std::size_t k) {
+    const std::size_t i = first + k;
+    const std::uint32_t middle = (leaves_[i].heading + kHalfWindow) % kBandBins;
+    costs_[i] = viewCost(tree_.middleView(leaves_[i].index), query_, middle);
+    headings_[i] = middle;
+  });
+  const auto take_least = [&] {
+    for (std::size_t i = first; i < costs_.size(); ++i) least_ = std::min(least_, costs_[i]);
+  };
+  take_least();
+  // The rest of the window where its middle is not far off.
+  constexpr double kNotFarOff = 1.2;
+  const double worth_it = kNotFarOff * limit();
+  budget.forEach(count, kLeastInARow, [&](std::size_t k) {
+    if (costs_[first + k] <= worth_it) tryAllHeadings(first + k);
+  });
+  take_least();
 }
 
 float SeedPoses::costIfWorthwhile(std::size_t i, float worthwhile) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/Budget.h>
 #include <mrpt_polyloc/localization/search/BandQuery.h>
 #include <mrpt_polyloc/localization/search/CertifiedSearchParams.h>
 #include <mrpt_polyloc/localization/search/PoseCandidate.h>
@@ -27,8 +28,8 @@ class SeedPoses {
   std::vector<TreeDescent::Node>& leaves() { return leaves_; }
   const std::vector<TreeDescent::Node>& leaves() const { return leaves_; }
 
-  /// Takes the leaves added since.
-  void evaluate();
+  /// Takes the leaves added since. \param budget its threads alone
+  void evaluate(const Budget& budget = Budget());
 
   /// The best leaf of each place, of those within the starting margin of the best of all.
   std::vector<PoseCandidate> best(std::size_t most) const { return best(most, limit()); }

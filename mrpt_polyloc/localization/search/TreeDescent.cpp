@@ -22,15 +22,28 @@ std::uint32_t windowOf(std::size_t level) {
   return static_cast<std::uint32_t>(SearchTree::kWindow[level]);
 }
 
+/// Of nodes in a row, which lie in a row in the level below.
+TreeDescent::Range childrenOf(const std::vector<SearchTree::Node>& nodes,
+                              const TreeDescent::Range& range) {
+  if (range.size() == 0) return {0, 0};
+  const SearchTree::Node& last = nodes[range.last - 1];
+  return {nodes[range.first].first_child, last.first_child + last.child_count};
+}
+
 }  // namespace
 
-TreeDescent::TreeDescent(const SearchTree& tree, const BandQuery& query, const PosePrior& prior,
-                         const mrpt::math::TPoint2D& sensor, Workspace& workspace)
+TreeDescent::TreeDescent(const SearchTree& tree, Range blocks, const BandQuery& query,
+                         const PosePrior& prior, const mrpt::math::TPoint2D& sensor,
+                         Workspace& workspace)
     : tree_(&tree),
       query_(&query),
       prior_(&prior),
       sensor_distance_(std::hypot(sensor.x, sensor.y)),
       workspace_(&workspace) {
+  ranges_[kTop] = blocks;
+  for (std::size_t level = kTop; level > 0; --level) {
+    ranges_[level - 1] = childrenOf(tree.nodes(level), ranges_[level]);
+  }
   for (auto& buckets : workspace_->waiting) {
     for (std::vector<Node>& nodes : buckets) nodes.clear();
   }
@@ -43,7 +56,7 @@ TreeDescent::TreeDescent(const SearchTree& tree, const BandQuery& query, const P
     }
   }
   for (std::uint32_t h = 0; h < kBins; h += windowOf(kTop)) list(kTop, h);
-  for (std::uint32_t block = 0; block < tree_->nodes(kTop).size(); ++block) {
+  for (std::uint32_t block = blocks.first; block < blocks.last; ++block) {
     if (allowsPosition(kTop, block)) consider(kTop, block);
   }
   // Those of bound 0 wait as well.
@@ -103,13 +116,14 @@ void TreeDescent::expand(std::size_t level, const std::vector<Node>& nodes, std:
 
 /// So that each child's bands are read once for all its headings: a fifth of the time.
 void TreeDescent::groupByIndex(std::size_t level, std::vector<Node>& nodes) {
+  const Range& range = ranges_[level];
   std::vector<std::uint32_t>& first = workspace_->first_of_index;
-  first.assign(tree_->nodes(level).size() + 1, 0);
-  for (const Node& node : nodes) ++first[node.index + 1];
+  first.assign(range.size() + 1, 0);
+  for (const Node& node : nodes) ++first[node.index - range.first + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
   std::vector<Node>& grouped = workspace_->grouped;
   grouped.resize(nodes.size());
-  for (const Node& node : nodes) grouped[first[node.index]++] = node;
+  for (const Node& node : nodes) grouped[first[node.index - range.first]++] = node;
   nodes.swap(grouped);
 }
 

@@ -14,8 +14,9 @@
 
 namespace mrpt_polyloc {
 
-/// The way down a SearchTree with a limit that rises: nodes bounded above the limit wait until it
-/// reaches them, so that nothing is done twice; what the prior does not allow is left out.
+/// The way down a SearchTree, from some blocks of its top level, with a limit that rises: nodes
+/// bounded above the limit wait until it reaches them, so that nothing is done twice; what the
+/// prior does not allow is left out.
 class TreeDescent {
  public:
   /// A node of the tree and a window of headings, the first bin of which is `heading`.
@@ -26,6 +27,12 @@ class TreeDescent {
   };
 
   static constexpr std::size_t kBuckets = 33;  ///< bits of a bound
+
+  /// Nodes of one level, [first, last).
+  struct Range {
+    std::uint32_t first, last;
+    std::size_t size() const { return last - first; }
+  };
 
   /// Memory that is kept from one descent to the next: growing it again takes a tenth of the time.
   struct Workspace {
@@ -39,9 +46,9 @@ class TreeDescent {
     std::vector<std::uint32_t> first_of_index;
   };
 
-  /// Bounds all nodes of the top level. Keeps references. \param sensor the beams' origin in the
-  /// robot frame
-  TreeDescent(const SearchTree& tree, const BandQuery& query, const PosePrior& prior,
+  /// Bounds the blocks, nodes of the top level. Keeps references. \param sensor the beams' origin
+  /// in the robot frame
+  TreeDescent(const SearchTree& tree, Range blocks, const BandQuery& query, const PosePrior& prior,
               const mrpt::math::TPoint2D& sensor, Workspace& workspace);
 
   /// Nothing waits any more: every pose that the prior allows is in a leaf, or there is none.
@@ -73,6 +80,7 @@ class TreeDescent {
   bool allowsHeading(std::size_t level, std::uint32_t heading) const;
 
   const SearchTree* tree_;
+  std::array<Range, SearchTree::kLevels> ranges_;  ///< what the blocks hold, by level
   const BandQuery* query_;
   const PosePrior* prior_;
   double sensor_distance_;

@@ -61,16 +61,19 @@ PoseCandidate cheapestAround(const TPose2D& pose, const PoseScorer& scorer) {
 
 }  // namespace
 
-DeeperBottoms deeperBottoms(const std::vector<PoseCandidate>& optima, const PoseScorer& scorer) {
+DeeperBottoms deeperBottoms(const std::vector<PoseCandidate>& optima, const PoseScorer& scorer,
+                            const Budget& budget) {
+  // From each optimum two ways: from itself, and from the cheapest pose around.
+  std::vector<PoseCandidate> ends(2 * optima.size());
+  budget.forEach(ends.size(), 1, [&](std::size_t i) {
+    const PoseCandidate& optimum = optima[i / 2];
+    ends[i] = compassSearch(i % 2 == 0 ? optimum : cheapestAround(optimum.pose_map_beams, scorer),
+                            scorer);
+  });
   DeeperBottoms result{optima.front().cost, {}};
-  for (const PoseCandidate& optimum : optima) {
-    const TPose2D& pose = optimum.pose_map_beams;
-    const PoseCandidate starts[] = {optimum, cheapestAround(pose, scorer)};
-    for (const PoseCandidate& start : starts) {
-      const PoseCandidate end = compassSearch(start, scorer);
-      result.least = std::min(result.least, end.cost);
-      if (end.cost < optimum.cost) result.ends.push_back(end);
-    }
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    result.least = std::min(result.least, ends[i].cost);
+    if (ends[i].cost < optima[i / 2].cost) result.ends.push_back(ends[i]);
   }
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt_polyloc/base/Budget.h>
 #include <mrpt_polyloc/localization/search/PoseCandidate.h>
 #include <mrpt_polyloc/localization/search/PoseScorer.h>
 
@@ -19,7 +20,8 @@ struct DeeperBottoms {
 /// in a second bottom of the same place. From each optimum, and from the cheapest of two rings of
 /// poses around it, a compass search goes down: poses are tried in six directions, nearer and
 /// nearer. Some 85 costs an optimum.
-/// \param optima with their search costs, at least one
-DeeperBottoms deeperBottoms(const std::vector<PoseCandidate>& optima, const PoseScorer& scorer);
+/// \param optima with their search costs, at least one \param budget its threads alone
+DeeperBottoms deeperBottoms(const std::vector<PoseCandidate>& optima, const PoseScorer& scorer,
+                            const Budget& budget = Budget());
 
 }  // namespace mrpt_polyloc

@@ -59,7 +59,7 @@ TEST(TreeDescent, LeavesOutNoPoseThatCostsLess) {
     const BruteForceCost cost(built.map, scan);
     TreeDescent::Workspace workspace;
     const PosePrior prior;
-    TreeDescent descent(built.tree, query, prior, {0, 0}, workspace);
+    TreeDescent descent(built.tree, allBlocks(built.tree), query, prior, {0, 0}, workspace);
     std::vector<Node> leaves;
     for (const double metres : {0.25, 0.4, 0.6}) {
       const unsigned limit = query.units(metres);
@@ -107,7 +107,7 @@ TEST(TreeDescent, TakesWhatThePriorAllowsAndLittleElse) {
     prior.near = PosePrior::Disk{center.x, center.y, 0.3 + unit(random)};
     prior.compass = PosePrior::Compass{6.0 * unit(random), 0.4 * unit(random)};
     TreeDescent::Workspace workspace;
-    TreeDescent descent(built.tree, query, prior, sensor, workspace);
+    TreeDescent descent(built.tree, allBlocks(built.tree), query, prior, sensor, workspace);
     std::vector<Node> leaves;
     EXPECT_TRUE(descent.expandUpTo(kAll, never, leaves));
     const Places places = placesOf(leaves);
@@ -144,7 +144,7 @@ TEST(TreeDescent, StopsWhenToldTo) {
   const BandQuery query(clutteredScan(built.map, random));
   const PosePrior prior;
   TreeDescent::Workspace workspace;
-  TreeDescent descent(built.tree, query, prior, {0, 0}, workspace);
+  TreeDescent descent(built.tree, allBlocks(built.tree), query, prior, {0, 0}, workspace);
   std::vector<Node> leaves;
   int asked = 0;
   EXPECT_FALSE(descent.expandUpTo(
@@ -159,7 +159,7 @@ TEST(TreeDescent, AGreedyDescentComesToTheLeastBoundsIfItIsWideEnough) {
   const PosePrior prior;
   const auto descended = [&](std::size_t width) {
     TreeDescent::Workspace workspace;
-    TreeDescent descent(built.tree, query, prior, {0, 0}, workspace);
+    TreeDescent descent(built.tree, allBlocks(built.tree), query, prior, {0, 0}, workspace);
     std::vector<Node> leaves;
     descent.greedyDescent(width, leaves);
     return leaves;

@@ -5,6 +5,7 @@
 #include "tests/support/simulated_scans.h"
 #include <mrpt_polyloc/localization/search/BandQuery.h>
 #include <mrpt_polyloc/localization/search/SearchTree.h>
+#include <mrpt_polyloc/localization/search/TreeDescent.h>
 
 #include <cstddef>
 #include <random>
@@ -27,6 +28,11 @@ struct SearchedMap {
   RangePredictor predictor;
   SearchTree tree;
 };
+
+/// All of the top level.
+inline TreeDescent::Range allBlocks(const SearchTree& tree) {
+  return {0, static_cast<std::uint32_t>(tree.nodes(SearchTree::kLevels - 1).size())};
+}
 
 /// A small building with what there is: furniture, unknown patches, walls beyond.
 inline PolygonMap smallBuilding(std::uint32_t seed) {

@@ -32,7 +32,7 @@ struct Remaining {
                {}),
         leaves(built.tree, query, params) {
     TreeDescent::Workspace workspace;
-    TreeDescent descent(built.tree, query, prior, scan.sensor(), workspace);
+    TreeDescent descent(built.tree, allBlocks(built.tree), query, prior, scan.sensor(), workspace);
     const auto never = [] { return false; };
     for (double cost = 0.02; !std::isfinite(least); cost *= 2.0) {
       descent.expandUpTo(query.units(cost), never, leaves.leaves());
