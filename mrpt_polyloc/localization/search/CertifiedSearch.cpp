@@ -68,6 +68,8 @@ void CertifiedSearchParams::check() const {
   requireInRange("margin", margin, 0.0, 10.0);
   requireInRange("seed_share", seed_share, 0.0, 100.0);
   requireInRange("seed_margin", seed_margin, 0.0, 100.0);
+  requireInRange("explained_share", explained_share, 0.0, 100.0);
+  requireInRange("max_explained", static_cast<double>(max_explained), 0.0, 1e6);
   requireInRange("max_candidates", static_cast<double>(max_candidates), 1.0, 1e6);
   requireNotNegative("reach", reach);
   requireInRange("max_lowered", static_cast<double>(max_lowered), 1.0, 1e6);
@@ -111,6 +113,8 @@ CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
   }
 
   result.candidates = seeds.allIfFew(params.max_candidates);
+  const std::vector<PoseCandidate> explained = seeds.mostExplained(params.max_explained);
+  result.candidates.insert(result.candidates.end(), explained.begin(), explained.end());
   result.evaluated = descent.evaluated();
   if (!result.is_complete) {
     // Whatever has not been opened may hold the best.

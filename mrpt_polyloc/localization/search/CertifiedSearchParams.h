@@ -18,6 +18,10 @@ struct POLYLOC_EXPORT CertifiedSearchParams {
   /// The best so many of them; where the leaves that remain lie in no more places than this, all
   /// places are looked at, whatever their middles cost.
   std::size_t max_candidates = 200;
+  /// Starting points, too, are the places whose clipped cost (ViewCost::clipped) is within this
+  /// share of the least, `max_explained` of them at most.
+  double explained_share = 0.25;
+  std::size_t max_explained = 60;
   /// Regions are settled (see SettledRegions) where the best of their poses tried costs at most
   /// this more than the best of all [m]. On simulated and real scans the optimum as cheap as the
   /// best was at most 0.29 m cheaper than that (doc/localization.md).

@@ -27,50 +27,58 @@ std::int64_t placeOf(const TPose2D& pose, std::uint32_t heading) {
 
 }  // namespace
 
+void SeedPoses::tryHeading(std::size_t i, std::uint32_t heading) {
+  const ViewCost cost = viewCost(tree_.middleView(leaves_[i].index), query_, heading);
+  search_.take(i, cost.search, heading);
+  clipped_.take(i, cost.clipped, heading);
+}
+
 void SeedPoses::tryAllHeadings(std::size_t i) {
-  const SearchTree::View view = tree_.middleView(leaves_[i].index);
   const std::uint32_t middle = leaves_[i].heading + kHalfWindow;
   for (std::uint32_t heading = leaves_[i].heading; heading < middle; ++heading) {
-    const float cost = viewCost(view, query_, heading);
-    if (cost >= costs_[i]) continue;
-    costs_[i] = cost;
-    headings_[i] = heading;
+    tryHeading(i, heading);
   }
 }
 
 void SeedPoses::evaluate(const Budget& budget) {
-  const std::size_t first = costs_.size(), count = leaves_.size() - first;
-  costs_.resize(leaves_.size());
-  headings_.resize(leaves_.size());
+  const std::size_t first = search_.costs.size(), count = leaves_.size() - first;
+  search_.resize(leaves_.size());
+  clipped_.resize(leaves_.size());
+  const auto take_least = [&](Merits& merits) {
+    for (std::size_t i = first; i < merits.costs.size(); ++i) {
+      merits.least = std::min(merits.least, merits.costs[i]);
+    }
+  };
   constexpr std::size_t kLeastInARow = 256;
   budget.forEach(count, kLeastInARow, [&](std::size_t k) {
-    const std::size_t i = first + k;
-    const std::uint32_t middle = (leaves_[i].heading + kHalfWindow) % kBandBins;
-    costs_[i] = viewCost(tree_.middleView(leaves_[i].index), query_, middle);
-    headings_[i] = middle;
+    tryHeading(first + k, (leaves_[first + k].heading + kHalfWindow) % kBandBins);
   });
-  const auto take_least = [&] {
-    for (std::size_t i = first; i < costs_.size(); ++i) least_ = std::min(least_, costs_[i]);
-  };
-  take_least();
+  take_least(search_);
+  take_least(clipped_);
   // The rest of the window where its middle is not far off.
   constexpr double kNotFarOff = 1.2;
-  const double worth_it = kNotFarOff * limit();
+  const double search_limit = kNotFarOff * limit(), clipped_limit = kNotFarOff * clippedLimit();
   budget.forEach(count, kLeastInARow, [&](std::size_t k) {
-    if (costs_[first + k] <= worth_it) tryAllHeadings(first + k);
+    const std::size_t i = first + k;
+    if (static_cast<double>(search_.costs[i]) <= search_limit ||
+        static_cast<double>(clipped_.costs[i]) <= clipped_limit) {
+      tryAllHeadings(i);
+    }
   });
-  take_least();
+  take_least(search_);
+  take_least(clipped_);
 }
 
 float SeedPoses::costIfWorthwhile(std::size_t i, float worthwhile) {
   // Half a window of heading changes the cost by no more than a leaf's breadth does, mostly.
   constexpr float kMostByHeading = 0.08F;  // [m]
-  const bool is_middle_alone =
-      headings_[i] == (leaves_[i].heading + kHalfWindow) % static_cast<std::uint32_t>(kBandBins);
-  if (is_middle_alone && costs_[i] > worthwhile && costs_[i] <= worthwhile + kMostByHeading) {
+  const float cost = search_.costs[i];
+  const bool is_middle_alone = search_.headings[i] == (leaves_[i].heading + kHalfWindow) %
+                                                          static_cast<std::uint32_t>(kBandBins);
+  if (is_middle_alone && cost > worthwhile && cost <= worthwhile + kMostByHeading) {
     tryAllHeadings(i);
   }
-  return costs_[i];
+  return search_.costs[i];
 }
 
 bool SeedPoses::areFew(std::size_t most) const {
@@ -79,10 +87,15 @@ bool SeedPoses::areFew(std::size_t most) const {
 
 std::vector<PoseCandidate> SeedPoses::allIfFew(std::size_t most) const {
   if (areFew(most)) {
-    std::vector<PoseCandidate> all = best(most + 1, std::numeric_limits<double>::infinity());
+    std::vector<PoseCandidate> all =
+        best(search_, most + 1, std::numeric_limits<double>::infinity());
     if (all.size() <= most) return all;
   }
   return best(most);
+}
+
+std::vector<PoseCandidate> SeedPoses::mostExplained(std::size_t most) const {
+  return best(clipped_, most, clippedLimit());
 }
 
 std::size_t SeedPoses::countBelow(unsigned bound) const {
@@ -91,11 +104,13 @@ std::size_t SeedPoses::countBelow(unsigned bound) const {
                     [bound](const TreeDescent::Node& leaf) { return leaf.bound < bound; }));
 }
 
-std::vector<PoseCandidate> SeedPoses::best(std::size_t most, double most_cost) const {
+std::vector<PoseCandidate> SeedPoses::best(const Merits& merits, std::size_t most,
+                                           double most_cost) const {
   // A heap, for mostly a few of ten thousands are wanted.
   std::vector<std::pair<float, std::size_t>> order;
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
-    if (static_cast<double>(costs_[i]) <= most_cost) order.emplace_back(costs_[i], i);
+    const float cost = merits.costs[i];
+    if (static_cast<double>(cost) <= most_cost) order.emplace_back(cost, i);
   }
   std::make_heap(order.begin(), order.end(), std::greater<>());
   std::unordered_set<std::int64_t> places;
@@ -104,19 +119,24 @@ std::vector<PoseCandidate> SeedPoses::best(std::size_t most, double most_cost) c
     std::pop_heap(order.begin(), order.end(), std::greater<>());
     const auto [cost, i] = order.back();
     order.pop_back();
-    if (!places.insert(placeOf(pose(i), headings_[i])).second) continue;
-    candidates.push_back({pose(i), static_cast<double>(cost)});
+    const TPose2D at = pose(merits, i);
+    if (!places.insert(placeOf(at, merits.headings[i])).second) continue;
+    candidates.push_back({at, static_cast<double>(search_.costs[i])});
   }
   return candidates;
 }
 
 double SeedPoses::limit() const {
-  return static_cast<double>(least_) * (1.0 + params_.seed_share) + params_.seed_margin;
+  return static_cast<double>(search_.least) * (1.0 + params_.seed_share) + params_.seed_margin;
 }
 
-TPose2D SeedPoses::pose(std::size_t i) const {
+double SeedPoses::clippedLimit() const {
+  return static_cast<double>(clipped_.least) * (1.0 + params_.explained_share);
+}
+
+TPose2D SeedPoses::pose(const Merits& merits, std::size_t i) const {
   const TPoint2D p = middle(i);
-  return {p.x, p.y, query_.heading(headings_[i])};
+  return {p.x, p.y, query_.heading(merits.headings[i])};
 }
 
 }  // namespace mrpt_polyloc

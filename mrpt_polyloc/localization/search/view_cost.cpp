@@ -14,11 +14,17 @@ using lanes::Words;
 constexpr std::size_t kLanes = lanes::kBytes / sizeof(std::uint16_t);
 constexpr lanes::FirstLanes<std::uint16_t, kBandBins % kLanes> kLast;
 
+constexpr auto kClip = static_cast<std::uint16_t>(kMostClipped / SearchTree::kViewUnit);
+
+struct Sums {
+  unsigned costs, clipped;
+};
+
 /// RobustCost, in integers.
 template <bool is_in_phase, bool has_no_returns>
-POLYLOC_LANES unsigned sumCosts(const SearchTree::View& view, const BandQuery& query,
-                                std::size_t heading) {
-  Words sums{}, cap_long = Words{} + query.cap_long_view;
+POLYLOC_LANES Sums sumCosts(const SearchTree::View& view, const BandQuery& query,
+                            std::size_t heading) {
+  Words sums{}, sums_clipped{}, cap_long = Words{} + query.cap_long_view;
   for (std::size_t first = 0; first < kBandBins; first += kLanes) {
     const std::size_t rotated = first + kBandBins - heading;
     if (!query.informs_from[rotated]) continue;
@@ -56,13 +62,15 @@ POLYLOC_LANES unsigned sumCosts(const SearchTree::View& view, const BandQuery& q
       costs &= last;
     }
     sums += costs;
+    takeMin(costs, Words{} + kClip);
+    sums_clipped += costs;
   }
-  return lanes::sumOf(sums);
+  return {lanes::sumOf(sums), lanes::sumOf(sums_clipped)};
 }
 
 template <bool has_no_returns>
-POLYLOC_LANES unsigned chooseByPhase(const SearchTree::View& view, const BandQuery& query,
-                                     std::size_t heading) {
+POLYLOC_LANES Sums chooseByPhase(const SearchTree::View& view, const BandQuery& query,
+                                 std::size_t heading) {
   return query.is_in_phase ? sumCosts<true, has_no_returns>(view, query, heading)
                            : sumCosts<false, has_no_returns>(view, query, heading);
 }
@@ -85,15 +93,17 @@ double sumSquares(const SearchTree::View& view, const BandQuery& query, std::siz
 }  // namespace
 
 POLYLOC_HOT_LOOP
-float viewCost(const SearchTree::View& view, const BandQuery& query, std::size_t heading) {
+ViewCost viewCost(const SearchTree::View& view, const BandQuery& query, std::size_t heading) {
   const auto beams = static_cast<double>(query.beams.size());
   if (query.metric == SearchMetric::polar) {
-    return static_cast<float>(std::sqrt(sumSquares(view, query, heading) / beams) *
-                              SearchTree::kViewUnit);
+    const auto cost = static_cast<float>(std::sqrt(sumSquares(view, query, heading) / beams) *
+                                         SearchTree::kViewUnit);
+    return {cost, cost};
   }
-  const unsigned sum = query.has_no_returns ? chooseByPhase<true>(view, query, heading)
-                                            : chooseByPhase<false>(view, query, heading);
-  return static_cast<float>(sum * SearchTree::kViewUnit / beams);
+  const Sums sums = query.has_no_returns ? chooseByPhase<true>(view, query, heading)
+                                         : chooseByPhase<false>(view, query, heading);
+  return {static_cast<float>(sums.costs * SearchTree::kViewUnit / beams),
+          static_cast<float>(sums.clipped * SearchTree::kViewUnit / beams)};
 }
 
 }  // namespace mrpt_polyloc

@@ -298,20 +298,23 @@ TEST(BandQuery, AViewCostsWhatItsRangesCost) {
     }
     const BandQuery query(RangeScan(beams), params);
     const std::size_t heading = random() % kBandBins;
-    double sum = 0.0;
+    double sum = 0.0, clipped = 0.0;
     for (const Beam& beam : query.beams) {
       const std::size_t bin = binOf(beam, query, heading);
       const auto meters = [](unsigned units) {
         return static_cast<float>(units * SearchTree::kViewUnit);
       };
       const bool is_open = near[bin] < wall[bin];
-      sum += static_cast<double>(
+      const auto of_beam = static_cast<double>(
           cost(beam, meters(wall[bin]),
                is_open ? meters(near[bin]) : std::numeric_limits<float>::infinity()));
+      sum += of_beam;
+      clipped += std::min(of_beam, kMostClipped);
     }
-    EXPECT_NEAR(static_cast<double>(viewCost({near.data(), wall.data()}, query, heading)),
-                sum / static_cast<double>(query.beams.size()), 0.01)
-        << i;
+    const ViewCost found = viewCost({near.data(), wall.data()}, query, heading);
+    const auto beams_held = static_cast<double>(query.beams.size());
+    EXPECT_NEAR(static_cast<double>(found.search), sum / beams_held, 0.01) << i;
+    EXPECT_NEAR(static_cast<double>(found.clipped), clipped / beams_held, 0.01) << i;
   }
 }
 
