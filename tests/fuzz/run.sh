@@ -2,15 +2,20 @@
 # run.sh MINUTES [TARGET...]: builds the fuzz targets by clang 14 (packages clang-14 and
 # libclang-rt-14-dev) under the address and undefined-behaviour sanitizers, and runs each for so many
 # minutes, one after the other; all of them if none is named. What a target learns stays in
-# build-fuzz/corpus/TARGET, what it finds in build-fuzz/findings/TARGET-*. Prints a line per target:
-# runs, edges of the code that it reached, inputs kept, findings. Exits 1 if anything was found.
+# build-fuzz/corpus/TARGET (or POLYLOC_FUZZ_CORPUS/TARGET) and is where its next run begins; what it
+# finds is in build-fuzz/findings/TARGET-*, and the last log beside it. Prints a line per target:
+# runs, seconds, edges of the code that it reached, inputs kept, findings; a target ends with its
+# first finding. Exits 1 if anything was found, 2 if a target did not run to its end.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-if [ $# -lt 1 ] || ! [[ $1 =~ ^[0-9]+(\.[0-9]+)?$ ]]; then
-  echo "usage: run.sh MINUTES [TARGET...]" >&2
+seconds=0 # to libFuzzer 0 means without end
+if [[ ${1-} =~ ^[0-9]+(\.[0-9]+)?$ ]]; then
+  seconds=$(awk -v minutes="$1" 'BEGIN { print int(60 * minutes) }')
+fi
+if [ "$seconds" -lt 1 ]; then
+  echo "usage: run.sh MINUTES [TARGET...], a second at least" >&2
   exit 2
 fi
-seconds=$(awk -v minutes="$1" 'BEGIN { print int(60 * minutes) }')
 shift
 targets=("$@")
 if [ ${#targets[@]} -eq 0 ]; then
@@ -19,29 +24,15 @@ fi
 
 cmake --preset fuzz > /dev/null
 cmake --build --preset fuzz --target fuzz_replay "${targets[@]/#/fuzz_}"
-build="build-fuzz"
-"$build/bin/fuzz_replay" --write-seeds "$build/seeds"
-mkdir -p "$build/findings"
+rm -rf build-fuzz/seeds
+build-fuzz/bin/fuzz_replay --write-seeds build-fuzz/seeds
 
 export UBSAN_OPTIONS=print_stacktrace=1
-found=0
+worst=0
 for target in "${targets[@]}"; do
-  corpus=$build/corpus/$target log=$build/findings/$target.log
-  mkdir -p "$corpus"
-  arguments=(-max_total_time="$seconds" -timeout=30 -rss_limit_mb=3000 -max_len=4096
-    -print_final_stats=1 -artifact_prefix="$build/findings/$target-")
-  if [ -f "tests/fuzz/dictionaries/$target.dict" ]; then
-    arguments+=(-dict="tests/fuzz/dictionaries/$target.dict")
-  fi
-  folders=("$corpus" "$build/seeds/$target")
-  if [ -d "tests/fuzz/found/$target" ]; then folders+=("tests/fuzz/found/$target"); fi
   status=0
-  "$build/bin/fuzz_$target" "${arguments[@]}" "${folders[@]}" > "$log" 2>&1 || status=$?
-  runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
-  edges=$(grep -oE 'cov: [0-9]+' "$log" | tail -1 | tr -dc '0-9' || true)
-  kept=$(find "$corpus" -type f | wc -l)
-  echo "$target: ${runs:-?} runs, ${edges:-?} edges, $kept inputs kept, $([ "$status" -eq 0 ] \
-    && echo "nothing found" || echo "FOUND, see $log")"
-  [ "$status" -eq 0 ] || found=1
+  bash tests/fuzz/run_target.sh build-fuzz "$target" "$seconds" || status=$?
+  # A finding is told before a target that did not run.
+  if [ "$status" -ne 0 ] && [ "$worst" -ne 1 ]; then worst=$status; fi
 done
-exit "$found"
+exit "$worst"
