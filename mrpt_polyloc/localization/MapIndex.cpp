@@ -50,6 +50,17 @@ void MapIndexParts::take(VisibleEdgeIndex::Lists edges, SearchTree::Data data) {
   if (edges.square_size != kLeavesPerSquare * data.leaf_size) {
     throw InvalidMapError("index: its parts are not of one size");
   }
+  SearchTreeParams{data.leaf_size, params.threads}.check();
+  // What lies elsewhere than the map is a bad file's. Leaves are cut from it, to rounding.
+  BoundingBox within = triangulation().box();
+  const TPoint2D margin(data.leaf_size, data.leaf_size);
+  within.min -= margin;
+  within.max += margin;
+  for (const BoundingBox& box : data.levels.back().boxes) {
+    if (!within.contains(box.min) || !within.contains(box.max)) {
+      throw InvalidMapError("index: leaves outside the map");
+    }
+  }
   params.leaf_size = data.leaf_size;
   params.horizon = edges.horizon;
   predictor_.get([&] { return RangePredictor(triangulation(), std::move(edges)); });

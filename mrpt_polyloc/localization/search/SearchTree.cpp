@@ -47,6 +47,11 @@ double increased(float range) {
   return static_cast<double>(range) * (1.0 + 1e-5) + 1e-3;
 }
 
+/// Whether two boxes are the same, and of numbers.
+bool areSame(const BoundingBox& a, const BoundingBox& b) {
+  return std::isfinite(a.width()) && std::isfinite(a.height()) && a.min == b.min && a.max == b.max;
+}
+
 /// Up to an even byte, its lowest bit then saying whether an edge may be open.
 std::uint8_t withOpenBit(std::uint8_t even_or_odd, bool may_be_open) {
   const int even = std::min((even_or_odd + 1) / 2 * 2, QuantizedRange::kGreatest - 1);
@@ -102,12 +107,32 @@ SearchTree::SearchTree(Data data) : data_(std::move(data)) {
     const Level& l = data_.levels[level];
     require(l.boxes.size() == l.nodes.size(), "boxes");
     require(l.codes.size() == l.nodes.size() * kArrays * kStride + 1, "arrays");
-    for (const Node& node : l.nodes) {
-      require(node.scale < QuantizedRange::kScales, "scale");
-      require(level == 0 || std::size_t{node.first_child} + node.child_count <=
-                                data_.levels[level - 1].nodes.size(),
-              "children");
+    for (const Node& node : l.nodes) require(node.scale < QuantizedRange::kScales, "scale");
+  }
+  for (std::size_t i = 0; i < leaves; ++i) {
+    const TPoint2D* const end = polygon(i) + polygonSize(i);
+    BoundingBox around = BoundingBox::empty();
+    for (const TPoint2D* p = polygon(i); p != end; ++p) {
+      require(box(0, i).contains(*p), "polygons");  // around leaves out what is not a number
+      around.include(*p);
     }
+    require(areSame(around, box(0, i)), "boxes");
+  }
+  // Each node is a child once: a file could make a descent without end of children that are shared.
+  for (std::size_t level = 1; level < kLevels; ++level) {
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < nodes(level).size(); ++i) {
+      const Node& node = nodes(level)[i];
+      require(node.first_child == end && node.child_count > 0 &&
+                  node.child_count <= nodes(level - 1).size() - end,
+              "children");
+      BoundingBox around = BoundingBox::empty();
+      for (const std::size_t stop = end + node.child_count; end < stop; ++end) {
+        around.include(box(level - 1, end));
+      }
+      require(areSame(around, box(level, i)), "boxes");
+    }
+    require(end == nodes(level - 1).size(), "children");
   }
 }
 

@@ -83,7 +83,8 @@ class SearchTree {
   SearchTree(const Triangulation& triangulation, const RangePredictor& predictor,
              const SearchTreeParams& params = {}, BuildProgress* progress = nullptr);
 
-  /// \throws InvalidMapError unless all numbers in the data are in their ranges
+  /// \throws InvalidMapError unless all numbers in the data are in their ranges, each node is the
+  ///     child of one, and the boxes are those of what they hold
   explicit SearchTree(Data data);
 
   const Data& data() const { return data_; }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 #include <string>
@@ -195,6 +196,16 @@ TEST(SearchTree, RefusesDataThatDoNotFitTogether) {
   refuses([](SearchTree::Data& d) { d.levels[0].codes.pop_back(); });
   refuses([](SearchTree::Data& d) { d.levels[1].boxes.pop_back(); });
   refuses([](SearchTree::Data& d) { d.levels[2].nodes.back().child_count += 100; });
+  refuses([](SearchTree::Data& d) { d.levels[2].nodes.back().child_count = 0; });
+  refuses([](SearchTree::Data& d) { d.levels[1].nodes.back().first_child -= 1; });
+  refuses([](SearchTree::Data& d) { d.levels[0].boxes.front().max.x += 1e-9; });
+  refuses([](SearchTree::Data& d) { d.levels[3].boxes.front().min.y -= 1.0; });
+  refuses([](SearchTree::Data& d) { d.vertices[1].x = std::numeric_limits<double>::quiet_NaN(); });
+  refuses([](SearchTree::Data& d) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    d.vertices[0].x = kInfinity;
+    for (SearchTree::Level& level : d.levels) level.boxes.front().max.x = kInfinity;
+  });
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "tests/support/simulated_scans.h"
 #include "tests/support/temp_file.h"
+#include <mrpt_polyloc/base/Checksum.h>
 #include <mrpt_polyloc/base/errors.h>
 #include <mrpt_polyloc/localization/GlobalLocalizer.h>
 #include <mrpt_polyloc/localization/search/search_index_file.h>
@@ -7,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -112,6 +115,66 @@ TEST_F(SearchIndexFile, RefusesAnyDamage) {
     damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
     EXPECT_NE(complaint(damaged), "") << at;
   }
+}
+
+/// The index with its last number, the checksum, made anew.
+std::string sealed(std::string bytes) {
+  Checksum checksum;
+  checksum.add(bytes.data(), bytes.size() - sizeof(std::uint64_t));
+  const std::uint64_t value = checksum.value();
+  std::memcpy(bytes.data() + bytes.size() - sizeof(value), &value, sizeof(value));
+  return bytes;
+}
+
+// Who means harm writes the right checksum, too.
+TEST_F(SearchIndexFile, WithARightChecksumDamageIsRefusedOrDoesNoHarm) {
+  ASSERT_EQ(sealed(content()), content());
+  const RangeScan scan = simulatedScan(asymmetricRoom(), {1.5, 1.0, 0.4});
+  std::size_t refused = 0, taken = 0;
+  for (const char value : {'\0', '\x7f', '\xff'}) {
+    for (std::size_t at = 16; at + 8 < content().size(); at += 1 + content().size() / 101) {
+      std::string damaged = content();
+      damaged[at] = value;
+      try {
+        const LocalizationResult result = GlobalLocalizer(loaded(sealed(damaged))).localize(scan);
+        for (const Hypothesis& hypothesis : result.hypotheses) {
+          EXPECT_TRUE(std::isfinite(hypothesis.cost)) << at;
+        }
+        ++taken;
+      } catch (const FormatError&) {
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 10U);
+  EXPECT_GT(taken, 10U);
+}
+
+TEST_F(SearchIndexFile, RefusesLeavesElsewhereAndOfNoSize) {
+  const auto complaintAbout = [](const auto& spoil) {
+    std::istringstream in(content());
+    SearchIndex index = readIndex(in, "room.index", asymmetricRoom().hash());
+    spoil(index);
+    std::ostringstream out;
+    writeIndex(out, index.edges, index.tree, asymmetricRoom().hash());
+    return complaint(out.str());
+  };
+  EXPECT_THAT(complaintAbout([](SearchIndex& index) {
+                for (TPoint2D& p : index.tree.vertices) p.x += 1e12;
+                for (SearchTree::Level& level : index.tree.levels) {
+                  for (BoundingBox& box : level.boxes) {
+                    box.min.x += 1e12;
+                    box.max.x += 1e12;
+                  }
+                }
+              }),
+              HasSubstr("leaves outside the map"));
+  // A grid of ten billion squares.
+  EXPECT_THAT(complaintAbout([](SearchIndex& index) {
+                index.tree.leaf_size = 1e-5;
+                index.edges.square_size = 4e-5;
+              }),
+              HasSubstr("leaf_size is 0.00001"));
 }
 
 }  // namespace
