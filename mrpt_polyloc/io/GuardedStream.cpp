@@ -2,9 +2,13 @@
 #include <mrpt_polyloc/io/bitmap_files.h>
 #include <mrpt_polyloc/io/limits.h>
 
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/poses/CPosePDF.h>
+
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -12,11 +16,28 @@ namespace mrpt_polyloc {
 
 namespace {
 
-/// Whether a read is the name of a class, with or without its namespace.
-bool isClass(const unsigned char* bytes, std::size_t count, std::string_view name) {
+/// The length of a name has this bit, since MRPT 0.5.5.
+constexpr unsigned kNew = 0x80;
+/// Version from which a movement says first how it was estimated.
+constexpr unsigned kFirstWithMethod = 2;
+
+/// A read as MRPT takes it for the name of a class: up to a zero byte, if it holds one.
+std::string_view nameOf(const unsigned char* bytes, std::size_t count) {
   const std::string_view text(reinterpret_cast<const char*>(bytes), count);
-  if (count < name.size() || text.substr(count - name.size()) != name) return false;
-  return count == name.size() || text[count - name.size() - 1] == ':';
+  return text.substr(0, text.find('\0'));
+}
+
+/// Whether a name is that of a class, with or without its namespace.
+bool isClass(std::string_view name, std::string_view wanted) {
+  if (name.size() < wanted.size() || name.substr(name.size() - wanted.size()) != wanted) {
+    return false;
+  }
+  return name.size() == wanted.size() || name[name.size() - wanted.size() - 1] == ':';
+}
+
+/// The class of this name; null if MRPT knows none.
+const mrpt::rtti::TRuntimeClassId* classOf(std::string_view name) {
+  return mrpt::rtti::findRegisteredClass(std::string(name));
 }
 
 /// MRPT stores little-endian.
@@ -50,13 +71,18 @@ void GuardedStream::refuse(const std::string& reason) {
 }
 
 void GuardedStream::lookForObject(const unsigned char* bytes, std::size_t count) {
-  constexpr unsigned kNew = 0x80;
   // Before a name stands its length: not before a label that only looks like one.
   if (name_length_ == count && count > 3) {
-    for (const auto& [kind, name] :
+    const std::string_view name = nameOf(bytes, count);
+    for (const auto& [kind, wanted] :
          {std::pair(Kind::scan, "CObservation2DRangeScan"),
-          std::pair(Kind::grid, "COccupancyGridMap2D"), std::pair(Kind::simplemap, "CSimpleMap")}) {
-      if (isClass(bytes, count, name)) steps_ = {{Field::version, 0, kind, name_is_old_}};
+          std::pair(Kind::grid, "COccupancyGridMap2D"), std::pair(Kind::simplemap, "CSimpleMap"),
+          std::pair(Kind::movement, "CActionRobotMovement2D")}) {
+      if (isClass(name, wanted)) steps_ = {{Field::version, 0, kind, name_is_old_}};
+    }
+    const auto* const found = classOf(name);
+    if (found != nullptr && !found->ptrCreateObject) {
+      refuse("an object of the abstract class " + std::string(name));
     }
   }
   if (count == 1) {
@@ -72,8 +98,8 @@ void GuardedStream::begin(Kind kind, unsigned version, bool is_old) {
   const auto put = [&](Field field, std::size_t bytes = 0, Kind of = Kind::scan) {
     steps_.push_back({field, bytes, of, is_old});
   };
-  const bool is_nested =
-      kind == Kind::pose || kind == Kind::float_matrix || kind == Kind::double_matrix;
+  const bool is_nested = kind == Kind::pose || kind == Kind::plane_pose ||
+                         kind == Kind::float_matrix || kind == Kind::double_matrix;
   if (is_nested && !is_old) put(Field::skipped, 1);  // its end flag
   constexpr unsigned kFirstWithoutCovariance = 6;
   switch (kind) {  // the last first
@@ -98,6 +124,17 @@ void GuardedStream::begin(Kind kind, unsigned version, bool is_old) {
       if (version == 3) put(Field::skipped, 12 * sizeof(double));
       if (version > 3) steps_.clear();
       break;
+    case Kind::movement:
+      if (version < kFirstWithMethod) {
+        put(Field::pdf_length);
+      } else {
+        put(Field::method, version);
+      }
+      break;
+    case Kind::plane_pose:
+      put(Field::skipped, 3 * (version == 0 ? sizeof(float) : sizeof(double)));
+      if (version > 1) steps_.clear();
+      break;
     case Kind::float_matrix:
     case Kind::double_matrix:
       put(Field::columns, 0, kind);
@@ -116,22 +153,47 @@ void GuardedStream::look(const unsigned char* bytes, std::size_t count) {
     return;
   }
   const Step now = step;
-  if (now.field != Field::length && now.field != Field::name && now.field != Field::version &&
-      count != 4) {
-    return steps_.clear();
+  switch (now.field) {
+    case Field::length:
+    case Field::name:
+    case Field::version:
+    case Field::pdf_length:
+    case Field::pdf_name:
+      break;
+    default:
+      if (count != 4) return steps_.clear();
   }
   if (now.field == Field::grid_limits) return lookAtLimits(bytes);
   steps_.pop_back();
   constexpr std::size_t kMostNumbers = 10'000;  // of a matrix: a pose's has 16, a covariance's 36
   switch (now.field) {
     case Field::length: {
-      constexpr unsigned kNew = 0x80;
       const bool is_old = bytes[0] < kNew;
       steps_.push_back({Field::version, 0, now.kind, is_old});
       steps_.push_back({Field::name});
       if (is_old) steps_.push_back({Field::skipped, 3});
       break;
     }
+    case Field::pdf_length:
+      steps_.push_back({Field::pdf_name});
+      if (bytes[0] < kNew) steps_.push_back({Field::skipped, 3});
+      break;
+    case Field::pdf_name: {
+      const auto* const found = classOf(nameOf(bytes, count));
+      // MRPT itself refuses classes that it does not know.
+      if (found != nullptr && !found->derivedFrom(CLASS_ID(mrpt::poses::CPosePDF))) {
+        refuse("a movement that is no distribution of poses");
+      }
+      break;
+    }
+    case Field::method:
+      lookAtMethod(now, number(bytes));
+      break;
+    case Field::drawn_count:
+      if (number(bytes) > kMaxDrawnPoses) {
+        refuse("a movement of more than " + std::to_string(kMaxDrawnPoses) + " poses");
+      }
+      break;
     case Field::version:
       begin(now.kind, bytes[0], now.is_old);
       break;
@@ -159,6 +221,20 @@ void GuardedStream::look(const unsigned char* bytes, std::size_t count) {
       break;
     default:
       break;
+  }
+}
+
+/// A movement by odometry holds numbers of which MRPT draws poses, one by another method these.
+void GuardedStream::lookAtMethod(const Step& step, std::uint32_t method) {
+  if (method != mrpt::obs::CActionRobotMovement2D::emOdometry) {
+    steps_.push_back({Field::pdf_length});
+    return;
+  }
+  if (step.bytes > kFirstWithMethod) {
+    const std::size_t of_gauss = step.bytes == 3 ? 5 * sizeof(double) : 6 * sizeof(float);
+    steps_.push_back({Field::drawn_count});
+    steps_.push_back({Field::skipped, 4 + of_gauss});  // which model
+    steps_.push_back({Field::length, 0, Kind::plane_pose});
   }
 }
 

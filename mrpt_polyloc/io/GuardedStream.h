@@ -11,10 +11,11 @@ namespace mrpt_polyloc {
 /// A file's content on its way to MRPT's classes, which take memory for as many elements as a file
 /// states before they read any: 17 GB for a scan, and MRPT 2 does not notice where it gets none.
 /// This looks at what is read, and ends the reading where a laser scan states more than kMaxBeams,
-/// an occupancy grid more than kMaxBitmapCells or a simplemap more than kMaxMapPoses, and where the
-/// content ends.
+/// an occupancy grid more than kMaxBitmapCells, a simplemap more than kMaxMapPoses or a movement by
+/// odometry more than kMaxDrawnPoses, and where the content ends. So it does where MRPT would use
+/// an object that it cannot make: of an abstract class, or of another one than a movement's.
 ///
-/// It knows the layouts of those three classes in all their versions; what is laid out otherwise it
+/// It knows the layouts of those four classes in all their versions; what is laid out otherwise it
 /// does not look at.
 class GuardedStream : public mrpt::io::CStream {
  public:
@@ -45,8 +46,21 @@ class GuardedStream : public mrpt::io::CStream {
     beam_count,
     pose_count,
     grid_limits,  ///< sizes, limits and resolution: seven reads
+    method,       ///< by which a movement was estimated; `bytes` is its version
+    drawn_count,  ///< poses that MRPT draws from a movement
+    pdf_length,   ///< of the name of a class of distributions of poses
+    pdf_name,
   };
-  enum class Kind { scan, grid, simplemap, pose, float_matrix, double_matrix };
+  enum class Kind {
+    scan,
+    grid,
+    simplemap,
+    movement,
+    pose,
+    plane_pose,
+    float_matrix,
+    double_matrix
+  };
   struct Step {
     Field field;
     std::size_t bytes = 0;   ///< that are skipped
@@ -58,6 +72,7 @@ class GuardedStream : public mrpt::io::CStream {
   void lookForObject(const unsigned char* bytes, std::size_t count);
   void begin(Kind kind, unsigned version, bool is_old);
   void lookAtLimits(const unsigned char* bytes);
+  void lookAtMethod(const Step& step, std::uint32_t method);
   [[noreturn]] void refuse(const std::string& reason);
 
   GzInputStream& stream_;

@@ -16,6 +16,9 @@ constexpr std::size_t kMaxBeams = 100'000;
 /// Poses of a simplemap.
 constexpr std::size_t kMaxMapPoses = 1'000'000;
 
+/// Poses that MRPT draws from a movement by odometry when it reads it: 300 mostly.
+constexpr std::size_t kMaxDrawnPoses = 100'000;
+
 /// Content of a file that is read at once (polygons, yaml, images, calibrations), decompressed
 /// [bytes]. Logs are read piece by piece.
 constexpr std::size_t kMaxWholeFile = std::size_t{1} << 30U;

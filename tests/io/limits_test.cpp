@@ -18,8 +18,11 @@
 #include <gtest/gtest.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
 
 #include <filesystem>
 #include <random>
@@ -30,6 +33,7 @@ namespace {
 
 using mrpt::obs::CObservation2DRangeScan;
 using Limits = QuietTest;
+using namespace std::string_literals;
 
 std::string carmenLine(std::size_t beams) {
   std::string line = "FLASER " + std::to_string(beams);
@@ -114,8 +118,11 @@ TEST_F(Limits, StatedSizesOfStoredScans) {
   frame.insert(std::make_shared<CObservation2DRangeScan>(randomObservation(random, 5)));
   frame.insert(std::make_shared<CObservation2DRangeScan>(randomObservation(random, 12345)));
   const std::string path = dir_.file("a.rawlog");
+  // MRPT takes a name up to a zero byte.
+  const std::string disguised = restated(hostile, "\xa2mrpt::obs::CObservation2DRangeScan",
+                                         "\xa4mrpt::obs::CObservation2DRangeScan" + "\0x"s);
   for (const std::string& second :
-       {hostile, restated(serialised(frame), count, "\xff\xff\xff\x7f")}) {
+       {hostile, disguised, restated(serialised(frame), count, "\xff\xff\xff\x7f")}) {
     writeFile(path, one + second);
     EXPECT_EQ(formatErrorOf([&] { loadScans(path); }),
               path + ": object 1: a scan of more than 100000 beams");
@@ -145,6 +152,56 @@ TEST_F(Limits, StatedPosesOfSimplemaps) {
   writeFile(path, restated(serialised(map), std::string("\x2c\x01\0\0", 4), "\xff\xff\xff\x7f"));
   EXPECT_EQ(formatErrorOf([&] { loadSimpleMap(path); }),
             path + ": object 0: a simplemap of more than 1000000 poses");
+}
+
+mrpt::obs::CActionRobotMovement2D movementOf(unsigned poses) {
+  mrpt::obs::CActionRobotMovement2D::TMotionModelOptions options;
+  options.modelSelection = mrpt::obs::CActionRobotMovement2D::mmThrun;
+  options.thrunModel.nParticlesCount = poses;
+  mrpt::obs::CActionRobotMovement2D movement;
+  movement.computeFromOdometry({0.1, 0, 0.01}, options);
+  return movement;
+}
+
+TEST_F(Limits, StatedPosesOfMovements) {
+  std::mt19937 random(1);
+  const std::string scan = serialised(randomObservation(random, 5));
+  const std::string path = dir_.file("a.rawlog");
+  mrpt::obs::CActionCollection actions;
+  actions.insert(movementOf(100));
+  actions.insert(movementOf(12345));
+  writeFile(path, serialised(actions) + scan);
+  EXPECT_EQ(loadScans(path).size(), 1U);
+  const std::string count("\x39\x30\0\0", 4);  // 12345
+  for (const char* const stated : {"\xff\xff\xff\x7f", "\xff\xff\xff\xff"}) {
+    writeFile(path, restated(serialised(actions), count, stated) + scan);
+    EXPECT_EQ(formatErrorOf([&] { loadScans(path); }),
+              path + ": object 0: a movement of more than 100000 poses");
+  }
+}
+
+// MRPT would go on with none.
+TEST_F(Limits, ObjectsThatCannotBeMade) {
+  std::mt19937 random(1);
+  mrpt::obs::CSensoryFrame frame;
+  frame.insert(std::make_shared<CObservation2DRangeScan>(randomObservation(random, 5)));
+  const std::string path = dir_.file("a.rawlog");
+  writeFile(path, restated(serialised(frame), "\xa2mrpt::obs::CObservation2DRangeScan",
+                           "\x97mrpt::obs::CObservation"));
+  EXPECT_EQ(formatErrorOf([&] { loadScans(path); }),
+            path + ": object 0: an object of the abstract class mrpt::obs::CObservation");
+
+  mrpt::obs::CActionRobotMovement2D movement = movementOf(100);
+  movement.estimationMethod = mrpt::obs::CActionRobotMovement2D::emScan2DMatching;
+  movement.poseChange = mrpt::poses::CPosePDFGaussian::Create();
+  const std::string scan = serialised(randomObservation(random, 5));
+  writeFile(path, serialised(movement) + scan);
+  EXPECT_EQ(loadScans(path).size(), 1U);
+  writeFile(path, restated(serialised(movement), "\x9dmrpt::poses::CPosePDFGaussian",
+                           "\x94mrpt::poses::CPose2D") +
+                      scan);
+  EXPECT_EQ(formatErrorOf([&] { loadScans(path); }),
+            path + ": object 0: a movement that is no distribution of poses");
 }
 
 TEST_F(Limits, TheEndOfTheContentEndsReading) {
