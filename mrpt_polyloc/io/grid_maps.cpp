@@ -2,15 +2,17 @@
 #include <mrpt_polyloc/io/bitmap_files.h>
 #include <mrpt_polyloc/io/grid_maps.h>
 #include <mrpt_polyloc/io/mrpt_archive.h>
+#include <mrpt_polyloc/io/mrpt_compat.h>
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationRange.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -20,10 +22,14 @@ namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 using mrpt::maps::CSimpleMap;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationRange;
 
 constexpr double kOccupiedAbove = 0.65;
 constexpr double kFreeBelow = 0.196;
 constexpr float kMaxInsertionDistance = 15.0F;  // [m], localization_demo.ini
+constexpr double kFirstExtent = 10.0;           // [m] of the grid around the origin, as MRPT's own
 
 /// The only object of a file, of the class that is expected there.
 template <typename T>
@@ -71,23 +77,54 @@ OccupancyBitmap toBitmap(const std::string& path, const COccupancyGridMap2D& gri
   return bitmap;
 }
 
-/// Refuses poses that would make the grid grow beyond all measure.
+/// Whether a grid may take an observation: MRPT would draw beams of any length, and ends the
+/// program where the grid cannot grow so far.
+bool areModest(const CObservation& observation) {
+  const auto is_modest = [](float range) { return range >= 0.0F; };  // and a number
+  if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation)) {
+    for (std::size_t i = 0; i < scan->getScanSize(); ++i) {
+      if (scan->getScanRangeValidity(i) && !is_modest(scan->getScanRange(i))) return false;
+    }
+    return is_modest(scan->maxRange) && std::isfinite(scan->aperture);
+  }
+  if (const auto* ranges = dynamic_cast<const CObservationRange*>(&observation)) {
+    return std::isfinite(coneAperture(*ranges, 0)) &&
+           std::all_of(ranges->begin(), ranges->end(),
+                       [&](const auto& one) { return is_modest(one.sensedDistance); });
+  }
+  return true;
+}
+
+/// Refuses poses that would make the grid grow beyond all measure, and readings of no length.
 void requireModestExtent(const std::string& path, const CSimpleMap& map) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::array<double, 2> low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+  std::array<double, 2> low{-kFirstExtent, -kFirstExtent}, high{kFirstExtent, kFirstExtent};
   std::size_t number = 0;
   // By iterators: get() hands out another type from MRPT 2.11.5 on.
   for (const auto& keyframe : map) {
-    const auto pose = keyframe.pose->getMeanVal().asTPose();
-    const std::array<double, 2> position{pose.x, pose.y};
-    for (std::size_t k = 0; k < 2; ++k) {
-      if (!std::isfinite(position[k]) || !std::isfinite(pose.yaw)) {
-        throw FormatError(path, "pose " + std::to_string(number), "is not finite");
+    const std::string place = "pose " + std::to_string(number++);
+    if (!keyframe.pose || !keyframe.sf) throw FormatError(path, place, "is empty");
+    const mrpt::poses::CPose3D mean = keyframe.pose->getMeanVal();
+    const auto include = [&](const mrpt::poses::CPose3D& pose_map_sensor) {
+      const auto pose = pose_map_sensor.asTPose();
+      const std::array<double, 2> position{pose.x, pose.y};
+      for (std::size_t k = 0; k < 2; ++k) {
+        if (!std::isfinite(position[k]) || !std::isfinite(pose.yaw)) {
+          throw FormatError(path, place, "is not finite");
+        }
+        low[k] = std::min(low[k], position[k]);
+        high[k] = std::max(high[k], position[k]);
       }
-      low[k] = std::min(low[k], position[k]);
-      high[k] = std::max(high[k], position[k]);
+    };
+    include(mean);
+    for (const auto& observation : *keyframe.sf) {
+      if (!observation) throw FormatError(path, place, "holds an empty observation");
+      if (!areModest(*observation)) {
+        throw FormatError(path, place, "holds readings that are no ranges");
+      }
+      mrpt::poses::CPose3D pose_robot_sensor;
+      observation->getSensorPose(pose_robot_sensor);
+      include(mean + pose_robot_sensor);
     }
-    ++number;
   }
   const double margin = 2.0 * static_cast<double>(kMaxInsertionDistance);
   const double cells = (high[0] - low[0] + margin) / kSimpleMapResolution *
@@ -108,7 +145,9 @@ OccupancyBitmap loadSimpleMap(const std::string& path) {
   if (map->empty()) throw FormatError(path, "object 0", "a simplemap without observations");
   requireModestExtent(path, *map);
 
-  COccupancyGridMap2D grid(-10.0F, 10.0F, -10.0F, 10.0F, static_cast<float>(kSimpleMapResolution));
+  constexpr auto kFirst = static_cast<float>(kFirstExtent);
+  COccupancyGridMap2D grid(-kFirst, kFirst, -kFirst, kFirst,
+                           static_cast<float>(kSimpleMapResolution));
   auto& options = grid.insertionOptions;  // as in localization_demo.ini
   options.mapAltitude = 0.0F;
   options.useMapAltitude = false;

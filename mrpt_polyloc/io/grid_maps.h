@@ -18,8 +18,9 @@ OccupancyBitmap loadGridMap(const std::string& path);
 /// An MRPT simplemap (CSimpleMap: poses and their observations, plain or gzipped), its laser scans
 /// inserted into an occupancy grid of kSimpleMapResolution at the mean of their poses, with the
 /// insertion options of MRPT's demo of pf-localization; then as loadGridMap().
-/// \throws FormatError as loadGridMap(), and if a pose is not finite, poses are so far apart that
-/// the grid would exceed kMaxBitmapCells, or no observation can be inserted into a grid.
+/// \throws FormatError as loadGridMap(), and if a pose of a robot or a sensor is not finite, they
+/// are so far apart, or so far from the origin, that the grid would exceed kMaxBitmapCells, a valid
+/// reading is negative or no number, or no observation can be inserted into a grid.
 OccupancyBitmap loadSimpleMap(const std::string& path);
 
 }  // namespace mrpt_polyloc

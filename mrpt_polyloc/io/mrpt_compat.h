@@ -42,6 +42,17 @@ CreatedMap toCreatedMap(std::unique_ptr<Map> map) {
 #endif
 }
 
+/// The width of the cone of a CObservationRange [rad]: its name was misspelt once.
+template <class Ranges>
+auto coneAperture(const Ranges& ranges, int /*preferred*/) -> decltype(ranges.sensorConeAperture) {
+  return ranges.sensorConeAperture;
+}
+template <class Ranges>
+auto coneAperture(const Ranges& ranges, long /*otherwise*/)
+    -> decltype(ranges.sensorConeApperture) {
+  return ranges.sensorConeApperture;
+}
+
 /// For the methods of CMetricMap that are virtual from 2.11.3 on: boundingBox().
 #if MRPT_VERSION >= 0x020b03
 #define POLYLOC_OVERRIDE_FROM_2_11_3 override

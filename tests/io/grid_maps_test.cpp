@@ -156,6 +156,36 @@ TEST_F(GridMaps, RefusesSimplemapsThatGiveNoGrid) {
               HasSubstr("too far apart"));
   EXPECT_THAT(errorOf(roomMap({{0, 0, 0, 0, 0, 0}, {std::nan(""), 0, 0, 0, 0, 0}})),
               HasSubstr("pose 1: is not finite"));
+  EXPECT_THAT(errorOf(roomMap({{1e8, 1e8, 0, 0, 0, 0}})), HasSubstr("too far apart"));
+
+  mrpt::obs::CObservation2DRangeScan scan;
+  scan.aperture = 3.0F;
+  scan.maxRange = 80.0F;
+  scan.resizeScanAndAssign(181, 3.0F, true);
+  const auto errorOfScan = [&](const auto& spoil) {
+    const auto spoilt = mrpt::obs::CObservation2DRangeScan::Create(scan);
+    spoil(*spoilt);
+    const auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(spoilt);
+    CSimpleMap map;
+    map.insert(mrpt::poses::CPose3DPDFGaussian::Create(), frame);
+    return errorOf(map);
+  };
+  EXPECT_EQ(errorOfScan([](auto& /*scan*/) {}), "");
+  EXPECT_THAT(errorOfScan([](auto& one) { one.setScanRange(7, -1e20F); }),
+              HasSubstr("pose 0: holds readings that are no ranges"));
+  EXPECT_THAT(errorOfScan([](auto& one) { one.setScanRange(7, std::nanf("")); }),
+              HasSubstr("no ranges"));
+  EXPECT_EQ(errorOfScan([](auto& one) {
+              one.setScanRange(7, -1.0F);
+              one.setScanRangeValidity(7, false);
+            }),
+            "");
+  EXPECT_THAT(errorOfScan([](auto& one) { one.maxRange = -1e20F; }), HasSubstr("no ranges"));
+  EXPECT_THAT(errorOfScan([](auto& one) { one.sensorPose.x(std::nan("")); }),
+              HasSubstr("pose 0: is not finite"));
+  EXPECT_THAT(errorOfScan([](auto& one) { one.sensorPose.x(1e9); }), HasSubstr("too far apart"));
+
   CSimpleMap odometry;
   const auto frame = mrpt::obs::CSensoryFrame::Create();
   frame->insert(mrpt::obs::CObservationOdometry::Create());
