@@ -146,7 +146,7 @@ TEST_F(Limits, StatedLimitsOfGrids) {
 TEST_F(Limits, StatedPosesOfSimplemaps) {
   mrpt::maps::CSimpleMap map;
   for (int i = 0; i < 300; ++i) {
-    map.insert(mrpt::poses::CPose3DPDFGaussian(), mrpt::obs::CSensoryFrame());
+    map.insert(mrpt::poses::CPose3DPDFGaussian::Create(), mrpt::obs::CSensoryFrame::Create());
   }
   const std::string path = dir_.file("a.simplemap");
   writeFile(path, restated(serialised(map), std::string("\x2c\x01\0\0", 4), "\xff\xff\xff\x7f"));
