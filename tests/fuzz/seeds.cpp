@@ -14,6 +14,7 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <cstring>
 #include <memory>
 
@@ -58,6 +59,19 @@ std::string gridMap() {
   grid.fill(0.9F);
   grid.setCell(1, 1, 0.1F);
   return serialised(grid);
+}
+
+/// A zstd frame that stores a content as it is (RFC 8878): a header with the size in four bytes,
+/// and one raw block, of up to 128 KiB.
+std::string zstdStored(const std::string& content) {
+  const auto size = static_cast<std::uint32_t>(content.size());
+  std::string bytes = "\x28\xb5\x2f\xfd\xa0";
+  const auto append = [&](std::uint32_t number, int count) {
+    for (int i = 0; i < count; ++i) bytes += static_cast<char>(number >> (8 * i) & 0xffU);
+  };
+  append(size, 4);
+  append(size << 3U | 1U, 3);  // the last block, raw
+  return bytes + content;
 }
 
 /// The room's beams as the target scan_way reads them.
@@ -144,9 +158,9 @@ std::map<std::string, std::vector<std::string>> seeds() {
        {test::pngFile(3, 2, 8, 0, "abcdef"), test::pngFile(2, 1, 16, 4, "abcdefgh"),
         test::pngFile(1, 2, 8, 6, "abcdefgh")}},
       {"carmen", {kCarmenLog}},
-      {"rawlog", {log, pairs + pairs, gzipped(log)}},
-      {"simplemap", {simpleMap(), gzipped(simpleMap())}},
-      {"gridmap", {gridMap(), gzipped(gridMap())}},
+      {"rawlog", {log, pairs + pairs, gzipped(log), zstdStored(log)}},
+      {"simplemap", {simpleMap(), gzipped(simpleMap()), zstdStored(simpleMap())}},
+      {"gridmap", {gridMap(), gzipped(gridMap()), zstdStored(gridMap())}},
       {"index", {fixedIndex()}},
       {"calibration", {calibrationJson(Calibration()).dump()}},
       {"tum",
@@ -159,7 +173,8 @@ std::map<std::string, std::vector<std::string>> seeds() {
       {"map_way", {image}},
       {"scan_way", {beamBytes()}},
       {"compressed",
-       {"plain", gzipped("some text, some text, some text"), gzipped("a") + gzipped("b")}},
+       {"plain", gzipped("some text, some text, some text"), gzipped("a") + gzipped("b"),
+        zstdStored("some text"), zstdStored("a") + zstdStored("b")}},
   };
 }
 
