@@ -14,7 +14,7 @@ constexpr double kNearestFloor = 3.0;              // [m]
 constexpr double kFloorShare = 0.95;               // for a floor or a pose that is not quite so
 constexpr double kLeastHeight = 0.02;              // [m]
 constexpr double kAssumedHeight = 0.3;             // [m] of lasers on indoor robots, the lower ones
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfiniteRange = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -34,15 +34,15 @@ SensorTilt::SensorTilt(double yaw, double pitch, double roll, double height)
 }
 
 SensorTilt::Projection SensorTilt::project(double bearing) const {
-  if (level_) return {upside_down_ ? yaw_ - bearing : yaw_ + bearing, 1.0, kInfinity};
+  if (level_) return {upside_down_ ? yaw_ - bearing : yaw_ + bearing, 1.0, kInfiniteRange};
   const double c = std::cos(bearing), s = std::sin(bearing);
   const double x = row_[0][0] * c + row_[0][1] * s, y = row_[1][0] * c + row_[1][1] * s;
   const double z = row_[2][0] * c + row_[2][1] * s;
-  return {std::atan2(y, x), std::hypot(x, y), z < 0.0 ? height_ / -z : kInfinity};
+  return {std::atan2(y, x), std::hypot(x, y), z < 0.0 ? height_ / -z : kInfiniteRange};
 }
 
 double SensorTilt::greatestReading(const Projection& beam) const {
-  return height_known_ ? kFloorShare * beam.floor_range : kInfinity;
+  return height_known_ ? kFloorShare * beam.floor_range : kInfiniteRange;
 }
 
 bool SensorTilt::isRefused(double nearest_floor_range) const {

@@ -12,7 +12,7 @@ namespace {
 using mrpt::math::TPose2D;
 
 /// Positions within a band are looked at so closely [m].
-constexpr double kAlongRay = 0.1;
+constexpr double kReadingStep = 0.1;
 /// Below this a band is not widened by looking: the tolerance covers it [m].
 constexpr double kLeastSpread = 0.03;
 
@@ -106,7 +106,7 @@ ExpectedReadings ReadingExpectation::at(const Hypothesis& hypothesis, const TPos
   const double reach = std::min(params_.deviations * spread.deviation, params_.most_deviation);
   std::vector<TPose2D> poses{beams};
   if (reach > kLeastSpread) {
-    const auto steps = static_cast<int>(std::ceil(reach / kAlongRay));
+    const auto steps = static_cast<int>(std::ceil(reach / kReadingStep));
     for (int k = -steps; k <= steps; ++k) {
       const double off = reach * k / steps;
       if (k == 0) continue;

@@ -17,12 +17,12 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kLong = 0.25;   // [m]: half of what a pose that nothing holds is given
-constexpr double kAcross = 0.2;  // [m]
-constexpr double kTurn = 0.07;   // [rad], 4 degrees
-constexpr double kApart = 1.5;   // [m]: poses of a valley are found each half metre or so
-constexpr double kRise = 0.01;   // [m]
-constexpr double kStep = 0.25;   // [m] along the way between two
+constexpr double kLong = 0.25;        // [m]: half of what a pose that nothing holds is given
+constexpr double kAcross = 0.2;       // [m]
+constexpr double kTurn = 0.07;        // [rad], 4 degrees
+constexpr double kApart = 1.5;        // [m]: poses of a valley are found each half metre or so
+constexpr double kRise = 0.01;        // [m]
+constexpr double kValleyStep = 0.25;  // [m] along the way between two
 
 /// The direction along which the scan does not hold a pose, if there is one.
 std::optional<Eigen::Vector2d> longAxis(const RefinedPose& pose, std::size_t sectors) {
@@ -44,7 +44,7 @@ bool liesAlong(const Eigen::Vector2d& way, const Eigen::Vector2d& axis) {
 bool isLevel(const ScoredPose& from, const ScoredPose& to, const ScanCost& cost) {
   const TPose2D &a = from.refined.pose_map_beams, &b = to.refined.pose_map_beams;
   const double most = std::max(from.cost, to.cost) + kRise;
-  const int steps = static_cast<int>(std::ceil(wayBetween(a, b).norm() / kStep));
+  const int steps = static_cast<int>(std::ceil(wayBetween(a, b).norm() / kValleyStep));
   const double turn = std::remainder(b.phi - a.phi, kTwoPi);
   for (int i = 1; i < steps; ++i) {
     const double share = static_cast<double>(i) / steps;
