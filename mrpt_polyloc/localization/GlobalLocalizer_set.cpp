@@ -150,6 +150,7 @@ LocalizationResult GlobalLocalizer::localize(const ScanSet& set, const PosePrior
     result.status = all.status;
     result.match_probability = all.match_probability;
     result.features = all.features;
+    result.wheel_scale = all.wheel_scale;
     result.hypotheses = all.hypotheses;
     result.listed = all.listed;
     // A search of one scan alone may have left the right place out: only a clear answer is one.

@@ -11,6 +11,7 @@ LocalizationResult resultOf(Assessment assessment) {
   result.status = assessment.status;
   result.match_probability = assessment.match_probability;
   result.features = assessment.features;
+  result.wheel_scale = assessment.wheel_scale;
   result.hypotheses = std::move(assessment.hypotheses);
   result.listed = assessment.listed;
   return result;

@@ -32,6 +32,9 @@ struct POLYLOC_EXPORT LocalizationResult {
   /// Share of the posterior that the hypotheses hold: the sum of their weights, below 1 where more
   /// were found than asked for; 0 without any.
   double listed = 0.0;
+  /// Of a scan set: so many times worse than they say the wheels were taken to be, by what the
+  /// scans make of the drive; at least 1 (see doubtWheels()).
+  double wheel_scale = 1.0;
   std::optional<Certificate> certificate;  ///< of the certified search alone
   std::vector<PoseRegion> regions;         ///< if asked for
   SearchStatistics statistics;

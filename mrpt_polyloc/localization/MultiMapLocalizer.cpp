@@ -2,7 +2,7 @@
 #include <mrpt_polyloc/localization/MapIndexParts.h>
 #include <mrpt_polyloc/localization/MultiMapLocalizer.h>
 #include <mrpt_polyloc/localization/ranking/SetEvidence.h>
-#include <mrpt_polyloc/localization/ranking/SetRefiner.h>
+#include <mrpt_polyloc/localization/ranking/WayFinder.h>
 
 #include <algorithm>
 #include <cmath>
@@ -69,11 +69,17 @@ MultiMapResult MultiMapLocalizer::localize(const ScanSet& set, const PosePrior& 
     if (found.hypotheses.empty()) continue;
     const RangePredictor& predictor = localizer.index().parts().predictor();
     const SetEvidence evidence(predictor, set, weights, localizer.params().cost, with.evidence);
-    const SetRefiner refiner(predictor, set, weights, localizer.params().refinement,
-                             with.calibration);
+    const RankingParams ranking{of_each.max_hypotheses, localizer.params().cost,
+                                localizer.params().refinement, with};
+    const WayFinder finder(predictor, set, weights, evidence,
+                           localizer.index().parts().triangulation(), prior, ranking);
     for (const Hypothesis& hypothesis : found.hypotheses) {
-      std::vector<mrpt::math::TPose2D> way = refiner.wayTo(hypothesis.pose_map_robot);
-      if (way.size() > 1) way = refiner.refine(way).poses;
+      std::vector<mrpt::math::TPose2D> way{hypothesis.pose_map_robot};
+      if (set.moments().size() > 1) {
+        const auto by_scans = finder.byScans(hypothesis.pose_map_robot);
+        if (!by_scans) continue;
+        way = finder.likeliest(*by_scans, found.wheel_scale, true).refined.poses;
+      }
       Candidate candidate{m, hypothesis, evidence.at(way)};
       candidate.mean = evidence.mean(candidate.evidence);
       candidates.push_back(std::move(candidate));

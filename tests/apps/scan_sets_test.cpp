@@ -55,7 +55,8 @@ TEST_F(ScanSetPrograms, RowsWithTheLastMetresAreAsManyAsScans) {
     EXPECT_EQ(linesOf(alone.out).size(), linesOf(all.out).size());
     // The first row has nothing before it.
     EXPECT_EQ(fieldsOf(linesOf(alone.out)[1])[4], fieldsOf(linesOf(all.out)[1])[4]);
-    EXPECT_NE(fieldsOf(linesOf(alone.out)[9])[4], fieldsOf(linesOf(all.out)[9])[4]);
+    // What others cost is the mean over all scans.
+    EXPECT_NE(fieldsOf(linesOf(alone.out)[9])[8], fieldsOf(linesOf(all.out)[9])[8]);
   }
 }
 

@@ -37,18 +37,19 @@ ScanOptions halfCircle() {
   return options;
 }
 
-/// The set of a robot that drives along poses, its wheels off by what their noise allows.
+/// The set of a robot that drives along poses, its wheels off by so many times what their noise
+/// allows.
 ScanSet setAlong(const PolygonMap& map, const std::vector<TPose2D>& poses,
-                 const ScanOptions& options, Random& random) {
+                 const ScanOptions& options, Random& random, double times = 1.0) {
   std::vector<Moment> moments;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     Motion motion;
     if (k > 0) {
       motion = measuredMotion(poses[k] - poses[k - 1]);
       TPose2D off = motion.pose_before_after;
-      off.x += std::sqrt(motion.covariance(0, 0)) * random.normal();
-      off.y += std::sqrt(motion.covariance(1, 1)) * random.normal();
-      off.phi += std::sqrt(motion.covariance(2, 2)) * random.normal();
+      off.x += times * std::sqrt(motion.covariance(0, 0)) * random.normal();
+      off.y += times * std::sqrt(motion.covariance(1, 1)) * random.normal();
+      off.phi += times * std::sqrt(motion.covariance(2, 2)) * random.normal();
       motion = measuredMotion(off);
     }
     ScanOptions of_scan = options;
@@ -169,6 +170,54 @@ TEST(ScanSetLaws, ADriveTellsApartWhatOneScanDoesNot) {
   EXPECT_LE(alone_unique, 2U);
   EXPECT_EQ(right, 8U);
   EXPECT_GE(unique, 7U);
+}
+
+/// Along the corridor of the twin rooms, and down into one of them.
+std::vector<TPose2D> wayIntoRoom(double x_of_room) {
+  constexpr double kStep = 0.4, kStraight = 2.2, kRadius = 1.0;
+  std::vector<TPose2D> way;
+  for (double s = 0.0; s < 4.6; s += kStep) {
+    const double turn = std::clamp((s - kStraight) / kRadius, 0.0, kPi / 2);
+    const double on = std::min(s, kStraight);
+    const double beyond = std::max(0.0, s - kStraight - kPi / 2 * kRadius);
+    way.push_back({x_of_room - kStraight - kRadius + on + kRadius * std::sin(turn),
+                   5.0 - kRadius * (1.0 - std::cos(turn)) - beyond, -turn});
+  }
+  return way;
+}
+
+TEST(ScanSetLaws, WheelsThatAreWorseThanTheySayDoNoHarm) {
+  const PolygonMap map = twinRooms();
+  const GlobalLocalizer localizer(map);
+  ScanOptions options = halfCircle();
+  options.short_share = 0.1;
+  for (const double times : {1.0, 5.0, 12.0}) {
+    Random random(11);
+    std::vector<double> scales;
+    std::size_t right = 0, wrong_unique = 0, refused = 0;
+    constexpr std::size_t kDrives = 16;
+    for (std::size_t i = 0; i < kDrives; ++i) {
+      options.seed = static_cast<std::uint32_t>(100 * i);
+      const std::vector<TPose2D> poses = wayIntoRoom(i % 2 == 0 ? 3.0 : 10.0);
+      const LocalizationResult result =
+          localizer.localize(setAlong(map, poses, options, random, times));
+      expectConsistent(result);
+      const bool is_right =
+          !result.hypotheses.empty() &&
+          distanceBetween(result.hypotheses[0].pose_map_robot, poses.back()) < 0.1;
+      right += is_right;
+      wrong_unique += !is_right && result.status == LocalizationStatus::unique;
+      refused += result.status == LocalizationStatus::no_match;
+      scales.push_back(result.wheel_scale);
+    }
+    EXPECT_EQ(right, kDrives) << times;
+    EXPECT_EQ(wrong_unique, 0U) << times;
+    EXPECT_EQ(refused, 0U) << times;
+    std::sort(scales.begin(), scales.end());
+    const double middle = scales[kDrives / 2];
+    EXPECT_GE(middle, times / 1.5) << times;
+    EXPECT_LE(middle, times * 1.3) << times;
+  }
 }
 
 TEST(ScanSetLaws, TwoLasersDoAsWellAsOneOfAllTheirBeams) {

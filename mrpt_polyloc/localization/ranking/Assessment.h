@@ -16,6 +16,7 @@ struct Assessment {
   std::optional<MatchFeatures> features;  ///< of the best answer, if there is one
   std::vector<Hypothesis> hypotheses;     ///< best first
   double listed = 0.0;                    ///< see LocalizationResult
+  double wheel_scale = 1.0;               ///< see LocalizationResult
 };
 
 }  // namespace mrpt_polyloc

@@ -23,18 +23,22 @@ SetEvidence::SetEvidence(const RangePredictor& predictor, const ScanSet& set,
   }
 }
 
+double SetEvidence::cost(std::size_t moment, const mrpt::math::TPose2D& pose_map_robot) const {
+  double sum = 0.0;
+  std::size_t beams = 0;
+  for (std::size_t i = 0; i < costs_[moment].size(); ++i) {
+    const ScanCost& cost = costs_[moment][i];
+    const RangeScan& scan = set_->moments()[moment].scans[i];
+    sum +=
+        cost.mean(scan.beamFrameFromRobot(pose_map_robot)) * static_cast<double>(cost.beamCount());
+    beams += cost.beamCount();
+  }
+  return beams > 0 ? sum / static_cast<double>(beams) : 0.0;
+}
+
 double SetEvidence::cost(const std::vector<mrpt::math::TPose2D>& way) const {
   double sum = 0.0;
-  for (std::size_t k = 0; k < costs_.size(); ++k) {
-    double of_moment = 0.0;
-    std::size_t beams = 0;
-    for (std::size_t i = 0; i < costs_[k].size(); ++i) {
-      const mrpt::math::TPose2D pose = set_->moments()[k].scans[i].beamFrameFromRobot(way[k]);
-      of_moment += costs_[k][i].mean(pose) * static_cast<double>(costs_[k][i].beamCount());
-      beams += costs_[k][i].beamCount();
-    }
-    if (beams > 0) sum += weights_->weights[k] * of_moment / static_cast<double>(beams);
-  }
+  for (std::size_t k = 0; k < way.size(); ++k) sum += weights_->weights[k] * cost(k, way[k]);
   return sum;
 }
 
@@ -73,6 +77,12 @@ PairedDifference SetEvidence::difference(const Values& a, const Values& b) const
   }
   result.standard_error = std::sqrt(variance);
   return result;
+}
+
+PairedDifference SetEvidence::level(const Values& values) const {
+  Values nothing;
+  for (const std::vector<float>& of_moment : values) nothing.emplace_back(of_moment.size(), 0.0F);
+  return difference(nothing, values);
 }
 
 double standardErrors(const PairedDifference& difference, double map_error) {

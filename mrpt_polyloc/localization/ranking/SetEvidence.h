@@ -27,6 +27,12 @@ class POLYLOC_EXPORT SetEvidence {
   /// Mean robust cost per beam, moments weighted [m].
   double cost(const std::vector<mrpt::math::TPose2D>& way) const;
 
+  /// The same of one moment alone.
+  double cost(std::size_t moment, const mrpt::math::TPose2D& pose_map_robot) const;
+
+  /// How much a moment counts in that mean, see MomentWeights.
+  double weight(std::size_t moment) const { return weights_->weights[moment]; }
+
   Values at(const std::vector<mrpt::math::TPose2D>& way) const;
 
   /// Mean evidence per beam, moments weighted [m].
@@ -36,6 +42,9 @@ class POLYLOC_EXPORT SetEvidence {
   /// sectors within the moments and the correlation between them give it. For one moment with one
   /// scan it is BeamSectors::difference().
   PairedDifference difference(const Values& a, const Values& b) const;
+
+  /// The same of the evidence itself: how well mean() is known.
+  PairedDifference level(const Values& values) const;
 
   /// Of one moment.
   const std::vector<ScanCost>& costs(std::size_t moment) const { return costs_[moment]; }

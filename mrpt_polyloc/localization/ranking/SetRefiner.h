@@ -3,6 +3,7 @@
 #include <mrpt_polyloc/base/export.h>
 #include <mrpt_polyloc/localization/ranking/Calibration.h>
 #include <mrpt_polyloc/localization/ranking/MomentWeights.h>
+#include <mrpt_polyloc/localization/ranking/WheelDoubt.h>
 #include <mrpt_polyloc/localization/scan/PoseRefiner.h>
 #include <mrpt_polyloc/localization/scan/ScanSet.h>
 
@@ -47,24 +48,37 @@ class POLYLOC_EXPORT SetRefiner {
   /// The poses at all moments, if the wheels are right and the robot is here now.
   std::vector<mrpt::math::TPose2D> wayTo(const mrpt::math::TPose2D& pose_map_robot) const;
 
-  RefinedWay refine(const std::vector<mrpt::math::TPose2D>& start) const;
+  /// \param wheel_scale the wheels are so many times worse than they say: their standard deviations
+  /// are multiplied by this
+  /// The robot's pose at one moment, by its scans alone. \param k index of the moment
+  mrpt::math::TPose2D refineAlone(std::size_t k, const mrpt::math::TPose2D& start) const;
+
+  RefinedWay refine(const std::vector<mrpt::math::TPose2D>& start, double wheel_scale = 1.0) const;
   /// With what was known of the first moment's pose.
   RefinedWay refine(const std::vector<mrpt::math::TPose2D>& start, const GaussianPose& known) const;
   /// A way as it is, with what scans and wheels say there.
-  RefinedWay at(const std::vector<mrpt::math::TPose2D>& way) const;
+  RefinedWay at(const std::vector<mrpt::math::TPose2D>& way, double wheel_scale = 1.0) const;
+
+  /// What the movements of a way differ by from what the wheels said, one for each moment but the
+  /// first.
+  std::vector<MovementError> movementErrors(const std::vector<mrpt::math::TPose2D>& way) const;
 
  private:
   struct System;
-  System linearize(const std::vector<mrpt::math::TPose2D>& way, const GaussianPose* known) const;
+  struct MomentStep;
+  MomentStep stepAt(std::size_t k, const mrpt::math::TPose2D& pose_map_robot) const;
+  System linearize(const std::vector<mrpt::math::TPose2D>& way, const GaussianPose* known,
+                   double wheel_scale) const;
   RefinedWay refine(const std::vector<mrpt::math::TPose2D>& start, const GaussianPose* known,
-                    int max_iterations) const;
+                    double wheel_scale, int max_iterations) const;
 
   const ScanSet* set_;
   PoseRefinerParams params_;
   std::vector<std::vector<PoseRefiner>> refiners_;  ///< of each moment's scans
   std::vector<double> sectors_;                     ///< of each moment
   std::vector<double> shares_;                      ///< of each moment, how much it counts
-  double variance_;                                 ///< of a sector's hits [m^2]
+  double variance_;      ///< of a sector's hits, with what all scans err by together [m^2]
+  double own_variance_;  ///< the same without
 };
 
 }  // namespace mrpt_polyloc

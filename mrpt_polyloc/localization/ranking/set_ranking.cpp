@@ -1,12 +1,12 @@
 #include <mrpt_polyloc/base/angles.h>
 #include <mrpt_polyloc/localization/ranking/SetEvidence.h>
-#include <mrpt_polyloc/localization/ranking/SetRefiner.h>
+#include <mrpt_polyloc/localization/ranking/WayFinder.h>
 #include <mrpt_polyloc/localization/ranking/match_features.h>
 #include <mrpt_polyloc/localization/ranking/set_ranking.h>
-#include <mrpt_polyloc/localization/scan/AllowedPoses.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -15,49 +15,6 @@ namespace mrpt_polyloc {
 namespace {
 
 using mrpt::math::TPose2D;
-
-struct ScoredWay {
-  RefinedWay refined;
-  double cost = 0.0;  ///< mean over the beams of all scans [m]
-
-  const TPose2D& now() const { return refined.poses.back(); }
-};
-
-/// Where the robot may be now: the prior, and every laser of now in free space or beside it.
-class AllowedNow {
- public:
-  AllowedNow(const ScanSet& set, const Triangulation& triangulation, const PosePrior& prior)
-      : set_(&set) {
-    for (const RangeScan& scan : set.now().scans) {
-      allowed_.emplace_back(triangulation, prior, scan.sensor());
-    }
-  }
-
-  bool contains(const TPose2D& pose_map_robot) const {
-    for (std::size_t i = 0; i < allowed_.size(); ++i) {
-      const RangeScan& scan = set_->now().scans[i];
-      if (!allowed_[i].contains(scan.beamFrameFromRobot(pose_map_robot))) return false;
-    }
-    return true;
-  }
-
- private:
-  const ScanSet* set_;
-  std::vector<AllowedPoses> allowed_;
-};
-
-/// Refinement that never ends dearer than it began, nor where the robot may not be.
-std::optional<ScoredWay> descend(const std::vector<TPose2D>& start, const SetRefiner& refiner,
-                                 const SetEvidence& evidence, const AllowedNow& allowed) {
-  ScoredWay end{refiner.refine(start), 0.0};
-  end.cost = evidence.cost(end.refined.poses);
-  const bool is_end_allowed = allowed.contains(end.now());
-  const double cost_of_start = evidence.cost(start);
-  if (is_end_allowed && end.cost <= cost_of_start) return end;
-  if (allowed.contains(start.back())) return ScoredWay{refiner.at(start), cost_of_start};
-  if (is_end_allowed) return end;
-  return std::nullopt;
-}
 
 /// Sorted by cost, of ways that end in nearly one pose only the best.
 std::vector<ScoredWay> mergeNear(std::vector<ScoredWay> ways, const HypothesisParams& params) {
@@ -75,47 +32,41 @@ std::vector<ScoredWay> mergeNear(std::vector<ScoredWay> ways, const HypothesisPa
   return merged;
 }
 
-std::vector<ScoredWay> refine(const std::vector<TPose2D>& candidates, const ScanSet& set,
-                              const MomentWeights& weights, const SetEvidence& evidence,
-                              const AllowedNow& allowed, const RangePredictor& predictor,
-                              const RankingParams& params, const Budget& budget) {
-  // As for one scan: some beams for all, all beams where it may matter.
-  constexpr std::size_t kCoarseBeams = 60;
-  PoseRefinerParams near_enough = params.refinement;
-  near_enough.step_tolerance = std::max(near_enough.step_tolerance, 1e-2);  // [m]
-  near_enough.turn_tolerance = std::max(near_enough.turn_tolerance, 3e-3);  // [rad]
-  const Calibration& calibration = params.hypotheses.calibration;
-  const SetRefiner coarse(predictor, set, weights, near_enough, calibration, kCoarseBeams);
-  const SetRefiner fine(predictor, set, weights, params.refinement, calibration);
-  const auto descent = [&](std::size_t i) {
-    return descend(coarse.wayTo(candidates[i]), coarse, evidence, allowed);
-  };
-  std::vector<std::optional<ScoredWay>> ends(candidates.size());
-  budget.forEach(candidates.size(), 1, [&](std::size_t i) {
-    if (!budget.isSpent()) ends[i] = descent(i);
-  });
-  std::vector<ScoredWay> ways;
-  for (std::optional<ScoredWay>& end : ends) {
-    if (end) ways.push_back(std::move(*end));
-  }
-  // Without any time left one way at least.
-  for (std::size_t i = 0; ways.empty() && i < candidates.size(); ++i) {
-    std::optional<ScoredWay> end = descent(i);
-    if (end) ways.push_back(std::move(*end));
+/// Ways at their optimum, and how much worse than they say the wheels are for all of them.
+struct RefinedWays {
+  std::vector<ScoredWay> ways;  ///< sorted by cost
+  double wheel_scale = 1.0;
+};
+
+RefinedWays refine(const std::vector<TPose2D>& candidates, const WayFinder& finder,
+                   const RankingParams& params, const Budget& budget) {
+  RefinedWays refined;
+  std::vector<ScoredWay>& ways = refined.ways;
+  double least_cost = std::numeric_limits<double>::infinity();
+  for (const TPose2D& candidate : candidates) {
+    if (!ways.empty() && budget.isSpent()) break;
+    std::optional<ScoredWay> found = finder.byScans(candidate, WayFinder::worth(least_cost));
+    if (!found) continue;
+    least_cost = std::min(least_cost, found->cost);
+    ways.push_back(std::move(*found));
   }
   ways = mergeNear(std::move(ways), params.hypotheses);
   constexpr std::size_t kLeastRivals = 20;
   const std::size_t kept = 2 * std::max(params.max_hypotheses, kLeastRivals);
   if (ways.size() > kept) ways.resize(kept);
-  constexpr double kWorthShare = 1.25, kWorthMargin = 0.03;  // as for one scan, [m]
-  const double most_cost = ways.empty() ? 0.0 : kWorthShare * ways.front().cost + kWorthMargin;
+
+  refined.wheel_scale = finder.wheelScale(ways);
+  // As for one scan: all beams where it may matter.
+  const std::size_t worth = WayFinder::worthCount(ways);
   budget.forEach(ways.size(), 1, [&](std::size_t i) {
-    ScoredWay& way = ways[i];
-    if (way.cost > most_cost || budget.isSpent()) return;
-    std::optional<ScoredWay> end = descend(way.refined.poses, fine, evidence, allowed);
-    if (end && end->cost < way.cost) way = std::move(*end);
+    if (budget.isSpent()) {
+      ways[i].refined.tension /= std::pow(refined.wheel_scale, 2);  // as it is, at that scale
+    } else {
+      ways[i] = finder.likeliest(ways[i], refined.wheel_scale, i < worth);
+    }
   });
-  return mergeNear(std::move(ways), params.hypotheses);
+  ways = mergeNear(std::move(ways), params.hypotheses);
+  return refined;
 }
 
 /// The features of the way that counts as the answer: shares over the beams of all scans, the lead
@@ -172,11 +123,11 @@ Assessment rankCandidates(const std::vector<TPose2D>& candidates, const ScanSet&
                           const PosePrior& prior, const RangePredictor& predictor,
                           const RankingParams& params, const Budget& budget) {
   const SetEvidence evidence(predictor, set, weights, params.cost, params.hypotheses.evidence);
-  const AllowedNow allowed(set, triangulation, prior);
-  const std::vector<ScoredWay> ways =
-      refine(candidates, set, weights, evidence, allowed, predictor, params, budget);
+  const WayFinder finder(predictor, set, weights, evidence, triangulation, prior, params);
+  const auto [ways, wheel_scale] = refine(candidates, finder, params, budget);
   Assessment result;
   if (ways.empty()) return result;
+  result.wheel_scale = wheel_scale;
 
   const Calibration& calibration = params.hypotheses.calibration;
   std::vector<SetEvidence::Values> values;

@@ -55,6 +55,56 @@ TEST_F(SetRefinerTest, FindsTheWholeWayThoughWheelsAreOff) {
   EXPECT_GT(refined.tension, 1e-4);
 }
 
+TEST_F(SetRefinerTest, ScansBesideEachOtherTellTheMovementBetweenThem) {
+  // Wheels that claim much and are wrong by ten times that, believed and not.
+  const std::vector<TPose2D> truth{{1, 1, 0.2}, {1.3, 1.1, 0.3}, {1.6, 1.2, 0.4}};
+  std::vector<Moment> moments;
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    Motion motion;
+    if (k > 0) motion = measuredMotion((truth[k] - truth[k - 1]) + TPose2D(0.06, -0.06, 0.05));
+    moments.push_back({{simulatedScan(map_, truth[k])}, motion, false});
+  }
+  const ScanSet set(std::move(moments));
+  const SetRefiner refiner(predictor_, set, MomentWeights(set, {}));
+  const auto worst = [&](const RefinedWay& way) {
+    double distance = 0.0;
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+      distance = std::max(distance, distanceBetween(way.poses[k], truth[k]));
+    }
+    return distance;
+  };
+  const std::vector<TPose2D> start = refiner.wayTo(truth.back());
+  const RefinedWay believed = refiner.refine(start), doubted = refiner.refine(start, 10.0);
+  EXPECT_LT(worst(doubted), 0.01);
+  EXPECT_GT(worst(believed), 2.0 * worst(doubted));
+  // At another scale the same way has another tension.
+  EXPECT_NEAR(refiner.at(doubted.poses).tension, 100.0 * doubted.tension, 0.01 * doubted.tension);
+  // The scans alone find their poses from where the wheels lead, and say what those are off by.
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    EXPECT_LT(distanceBetween(refiner.refineAlone(k, start[k]), truth[k]), 0.005) << k;
+  }
+  const std::vector<MovementError> errors = refiner.movementErrors(truth);
+  ASSERT_EQ(errors.size(), 2U);
+  for (const MovementError& error : errors) {
+    EXPECT_NEAR(std::hypot(error.off[0], error.off[1]), std::hypot(0.06, 0.06), 0.02);
+    EXPECT_LT(error.scans(0, 0), std::pow(0.1, 2));
+    EXPECT_LT(error.wheels(0, 0), std::pow(0.01, 2));
+  }
+}
+
+TEST_F(SetRefinerTest, WhatIsKnownOfAWayFollowsItsIndependentMoments) {
+  // A robot that stands still knows its pose no better by looking four times.
+  const RangeScan scan = simulatedScan(map_, {2.5, 3, 0.7});
+  const ScanSet once(scan);
+  const ScanSet often(
+      {{{scan}, {}, false}, {{scan}, {}, false}, {{scan}, {}, false}, {{scan}, {}, false}});
+  const auto deviation = [&](const ScanSet& set) {
+    const SetRefiner refiner(predictor_, set, MomentWeights(set, {}));
+    return std::sqrt(refiner.refine(refiner.wayTo({2.5, 3, 0.7})).covariance(0, 0));
+  };
+  EXPECT_NEAR(deviation(often) / deviation(once), 1.0, 0.1);
+}
+
 TEST_F(SetRefinerTest, OfOneMomentIsThePoseRefiner) {
   const RangeScan scan = simulatedScan(map_, {2.5, 3, 0.7});
   const ScanSet set(scan);
