@@ -9,7 +9,7 @@
 namespace mrpt_polyloc::apps {
 
 std::string sceneText(const PolygonMap& map) {
-  const auto lines = mrpt::opengl::CSetOfObjects::Create();
+  const auto lines = drawn::CSetOfObjects::Create();
   lines->setName("map");
   addMapLines(map, *lines);
   Scene scene;

@@ -1,10 +1,6 @@
 #include "replay_scene.h"
 
-#include <mrpt/opengl/COpenGLScene.h>
-#include <mrpt/opengl/CPointCloud.h>
-#include <mrpt/opengl/CSetOfLines.h>
-#include <mrpt/opengl/CSetOfObjects.h>
-#include <mrpt/opengl/stock_objects.h>
+#include <mrpt_polyloc/io/mrpt_compat.h>
 
 #include <stdexcept>
 
@@ -17,7 +13,7 @@ constexpr double kParticleHeight = 0.04;  // [m]
 /// Joins successive places by a line.
 class Way {
  public:
-  explicit Way(const char* name) : lines_(mrpt::opengl::CSetOfLines::Create()) {
+  explicit Way(const char* name) : lines_(drawn::CSetOfLines::Create()) {
     lines_->setName(name);
     lines_->setLineWidth(2.0F);
   }
@@ -28,10 +24,10 @@ class Way {
     last_ = pose;
     has_last_ = true;
   }
-  const mrpt::opengl::CSetOfLines::Ptr& lines() const { return lines_; }
+  const drawn::CSetOfLines::Ptr& lines() const { return lines_; }
 
  private:
-  mrpt::opengl::CSetOfLines::Ptr lines_;
+  drawn::CSetOfLines::Ptr lines_;
   mrpt::math::TPose2D last_{0, 0, 0};
   bool has_last_ = false;
 };
@@ -40,8 +36,8 @@ class Way {
 
 void writeScene(const std::string& path, const CPolygonMap2D& map, const RunRecord& run,
                 std::size_t k, const Truth& truth) {
-  mrpt::opengl::COpenGLScene scene;
-  auto walls = mrpt::opengl::CSetOfObjects::Create();
+  Scene scene;
+  auto walls = drawn::CSetOfObjects::Create();
   map.getVisualizationInto(*walls);
   walls->setName("map");
   scene.insert(walls);
@@ -59,7 +55,7 @@ void writeScene(const std::string& path, const CPolygonMap2D& map, const RunReco
   scene.insert(known.lines());
 
   const StepRecord& last = run.steps[k];
-  auto particles = mrpt::opengl::CPointCloud::Create();
+  auto particles = drawn::CPointCloud::Create();
   particles->setName("particles");
   particles->setPointSize(3.0F);
   particles->setColor_u8(176, 24, 156);
@@ -68,7 +64,7 @@ void writeScene(const std::string& path, const CPolygonMap2D& map, const RunReco
                            static_cast<float>(kParticleHeight));
   }
   scene.insert(particles);
-  auto robot = mrpt::opengl::stock_objects::CornerXYZSimple(1.0F, 2.0F);
+  auto robot = drawn::stock_objects::CornerXYZSimple(1.0F, 2.0F);
   robot->setName("robot");
   robot->setPose(mrpt::poses::CPose3D(mrpt::poses::CPose2D(last.estimate)));
   scene.insert(robot);

@@ -1,28 +1,48 @@
 #pragma once
 
-// What differs between the versions of MRPT that this is built and tested with: 2.5.8, 2.14.7 and
-// 2.15.14 (Debian 12, 13 and testing). No other file asks for MRPT's version.
+// What differs between the versions of MRPT that this is built and tested with, 2.5.8, 2.14.7 and
+// 2.15.14 (Debian 12, 13 and testing), and 3.1.2, against whose headers alone it was checked. No
+// other file asks for MRPT's version.
 // MRPT_VERSION is 0xMmp up to 2.10.1 (0x258 is 2.5.8) and 0xMMmmpp from 2.10.2 on; a test with >=
 // is right for both.
 
 #include <mrpt/maps/CMetricMap.h>
 #include <mrpt/version.h>
 
+#if MRPT_VERSION >= 0x030000
+#include <mrpt/viz/CPointCloud.h>
+#include <mrpt/viz/CSetOfLines.h>
+#include <mrpt/viz/CSetOfObjects.h>
+#include <mrpt/viz/Scene.h>
+#include <mrpt/viz/stock_objects.h>
+#else
+#include <mrpt/opengl/CPointCloud.h>
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+#include <mrpt/opengl/stock_objects.h>
 #if MRPT_VERSION >= 0x270
 #include <mrpt/opengl/Scene.h>
 #else
 #include <mrpt/opengl/COpenGLScene.h>
+#endif
 #endif
 
 #include <memory>
 
 namespace mrpt_polyloc {
 
+/// Where the objects that are drawn live: MRPT 3 has moved them.
+#if MRPT_VERSION >= 0x030000
+namespace drawn = mrpt::viz;
+#else
+namespace drawn = mrpt::opengl;
+#endif
+
 /// A scene of objects to be drawn: renamed in 2.7.0.
 #if MRPT_VERSION >= 0x270
-using Scene = mrpt::opengl::Scene;
+using Scene = drawn::Scene;
 #else
-using Scene = mrpt::opengl::COpenGLScene;
+using Scene = drawn::COpenGLScene;
 #endif
 
 /// What MRPT wants back from internal_CreateFromMapDefinition(): a raw pointer that it takes over,

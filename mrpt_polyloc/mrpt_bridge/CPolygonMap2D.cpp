@@ -84,7 +84,7 @@ bool CPolygonMap2D::internal_canComputeObservationLikelihood(
   return content_ && dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;
 }
 
-void CPolygonMap2D::getVisualizationInto(mrpt::opengl::CSetOfObjects& out) const {
+void CPolygonMap2D::getVisualizationInto(drawn::CSetOfObjects& out) const {
   if (!content_ || !genericMapParams.enableSaveAs3DObject) return;
   addMapLines(content_->map(), out);
 }

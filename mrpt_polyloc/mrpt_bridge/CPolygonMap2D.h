@@ -55,7 +55,7 @@ class POLYLOC_EXPORT CPolygonMap2D : public mrpt::maps::CMetricMap {
   bool isEmpty() const override { return content_ == nullptr; }
   std::string asString() const override;
   /// Walls dark, open edges orange, walls beyond grey.
-  void getVisualizationInto(mrpt::opengl::CSetOfObjects& out) const override;
+  void getVisualizationInto(drawn::CSetOfObjects& out) const override;
   /// Writes PREFIX.geojson, which loadMap() reads; nothing for an empty map.
   /// \throws std::runtime_error if it cannot be written
   void saveMetricMapRepresentationToFile(const std::string& prefix) const override;

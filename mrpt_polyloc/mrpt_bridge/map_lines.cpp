@@ -1,13 +1,11 @@
 #include <mrpt_polyloc/mrpt_bridge/map_lines.h>
 
-#include <mrpt/opengl/CSetOfLines.h>
-
 #include <cstdint>
 
 namespace mrpt_polyloc {
 namespace {
 
-using mrpt::opengl::CSetOfLines;
+using drawn::CSetOfLines;
 
 CSetOfLines::Ptr linesOf(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
   const auto lines = CSetOfLines::Create();
@@ -21,7 +19,7 @@ void append(CSetOfLines& lines, const TPoint2D& a, const TPoint2D& b) {
 
 }  // namespace
 
-void addMapLines(const PolygonMap& map, mrpt::opengl::CSetOfObjects& out) {
+void addMapLines(const PolygonMap& map, drawn::CSetOfObjects& out) {
   const auto walls = linesOf(20, 30, 90);
   const auto open = linesOf(255, 140, 0);
   const auto beyond = linesOf(130, 130, 130);

@@ -3,7 +3,6 @@
 #include <mrpt_polyloc/io/mrpt_compat.h>
 
 #include <gmock/gmock.h>
-#include <mrpt/opengl/CSetOfLines.h>
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
@@ -108,9 +107,9 @@ TEST_F(PolylocMap, WritesASceneOfLinesThatMrptReads) {
   GzInputStream file(path("room.3Dscene"));
   const auto scene = std::dynamic_pointer_cast<Scene>(readObject(file, 0));
   ASSERT_TRUE(scene);
-  const auto walls = scene->getByClass<mrpt::opengl::CSetOfLines>(0);
+  const auto walls = scene->getByClass<drawn::CSetOfLines>(0);
   ASSERT_TRUE(walls);
-  EXPECT_EQ(walls->getLineCount(), 13U);
+  EXPECT_EQ(walls->size(), 13U);
   EXPECT_TRUE(file.atEnd());
 }
 

@@ -3,10 +3,10 @@
 #include "tests/support/data_dir.h"
 #include <mrpt_polyloc/evaluation/truth.h>
 #include <mrpt_polyloc/io/map_files.h>
+#include <mrpt_polyloc/io/mrpt_compat.h>
 #include <mrpt_polyloc/io/polygon_files.h>
 
 #include <gmock/gmock.h>
-#include <mrpt/opengl/COpenGLScene.h>
 #include <nlohmann/json.hpp>
 
 #include <apps/polyloc-replay/replay_statistics.h>
@@ -130,7 +130,7 @@ TEST_F(PolylocReplay, WritesScenesThatMrptReads) {
   ASSERT_EQ(replay({}).code, 0);
   EXPECT_THAT(files("out/3D"), ElementsAre("step_00019.3Dscene", "step_00039.3Dscene"));
   for (const char* name : {"out/scene.3Dscene", "out/3D/step_00019.3Dscene"}) {
-    mrpt::opengl::COpenGLScene scene;
+    Scene scene;
     ASSERT_TRUE(scene.loadFromFile(path(name))) << name;
     for (const char* object : {"map", "estimate", "particles", "robot"}) {
       EXPECT_TRUE(scene.getByName(object)) << name << " " << object;

@@ -46,7 +46,7 @@ std::vector<Step> readSteps(const char* path, const GlobalLocalizer& localizer) 
   if (!rawlog.loadFromRawLogFile(path)) throw std::runtime_error(std::string(path) + ": no rawlog");
   std::vector<Step> steps;
   for (std::size_t i = 0; i + 1 < rawlog.size(); ++i) {
-    if (rawlog.getType(i) != mrpt::obs::CRawlog::etActionCollection) continue;
+    if (rawlog.getType(i) != mrpt::obs::CRawlog::TEntryType::etActionCollection) continue;
     Step step{rawlog.getAsAction(i), rawlog.getAsObservations(i + 1), {}};
     const auto scan = step.frame->getObservationByClass<CObservation2DRangeScan>();
     if (!scan) continue;

@@ -46,7 +46,7 @@ TEST(PolygonMap2D, IsMadeByAnIniCopiedBySerializationAndKeptByClear) {
   const test::TempFile file(".geojson", toGeoJson(room()));
   mrpt::maps::CMultiMetricMap maps(
       fromIni(iniFor(file.path(), "sigma = 0.25  // m\ndecimation=3 ; beams\ntau_none=")));
-  const mrpt::maps::CMultiMetricMap copy(maps);
+  mrpt::maps::CMultiMetricMap copy(maps);
   auto made = copy.mapByClass<CPolygonMap2D>();
   ASSERT_TRUE(made && made->map());
   EXPECT_EQ(made->map()->hash(), room().hash());

@@ -7,8 +7,6 @@
 
 #include <gmock/gmock.h>
 #include <mrpt/maps/CSimplePointsMap.h>
-#include <mrpt/opengl/CSetOfLines.h>
-#include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/poses/CPose2D.h>
 
 #include <cmath>
@@ -277,13 +275,13 @@ TEST(PolygonMap2D, BoundingBoxHoldsTheWallsBeyond) {
 TEST(PolygonMap2D, ShowsItselfAsLinesAndSavesItselfAsGeoJson) {
   const PolygonMap polygons = partlyOpenRoom();
   const CPolygonMap2D map(polygons);
-  mrpt::opengl::CSetOfObjects scene;
+  drawn::CSetOfObjects scene;
   map.getVisualizationInto(scene);
   std::vector<std::size_t> counts;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto lines = scene.getByClass<mrpt::opengl::CSetOfLines>(i);
+    const auto lines = scene.getByClass<drawn::CSetOfLines>(i);
     ASSERT_TRUE(lines);
-    counts.push_back(lines->getLineCount());
+    counts.push_back(lines->size());
   }
   EXPECT_EQ(counts, (std::vector<std::size_t>{7, 1, 2}));  // walls, open edges, walls beyond
   EXPECT_NE(map.asString(), CPolygonMap2D().asString());
