@@ -33,10 +33,11 @@ class POLYLOC_EXPORT GlobalLocalizer {
 
   /// Every pose now that explains all scans of a set. The scans are searched one by one, what they
   /// leave is carried to now by the movements, refined on all beams of all scans with the movements
-  /// free within their uncertainty, ranked and judged on all (see SetRefiner, SetEvidence). For a
-  /// set of one scan it is the answer for that scan. The certificate and regions are those of the
-  /// first scan that was searched, mostly the first of now: see Certificate::moment. The prior is
-  /// of the robot now. The budget is for all searches together.
+  /// free within their uncertainty, or more if the scans say so (LocalizationResult::wheel_scale),
+  /// ranked and judged on all (see WayFinder, SetRefiner, SetEvidence). For a set of one scan it is
+  /// the answer for that scan. The certificate and regions are those of the first scan that was
+  /// searched, mostly the first of now: see Certificate::moment. The prior is of the robot now. The
+  /// budget is for all searches together.
   LocalizationResult localize(const ScanSet& set, const PosePrior& prior = {},
                               const SearchOptions& options = {}) const;
 
