@@ -16,6 +16,7 @@ using mrpt::math::TPose2D;
 /// optimum.
 constexpr double kPlaceSize = 0.3;           // [m]
 constexpr std::uint32_t kPlaceHeadings = 3;  // [bins]
+constexpr auto kHeadingBins = static_cast<std::uint32_t>(kBandBins);
 constexpr auto kHalfWindow = static_cast<std::uint32_t>(SearchTree::kWindow[0] / 2);
 constexpr std::size_t kLeavesPerPlace = 4;  // about; more leaves are more places than `most`
 
@@ -51,7 +52,7 @@ void SeedPoses::evaluate(const Budget& budget) {
   };
   constexpr std::size_t kLeastInARow = 256;
   budget.forEach(count, kLeastInARow, [&](std::size_t k) {
-    tryHeading(first + k, (leaves_[first + k].heading + kHalfWindow) % kBandBins);
+    tryHeading(first + k, (leaves_[first + k].heading + kHalfWindow) % kHeadingBins);
   });
   take_least(search_);
   take_least(clipped_);
