@@ -33,6 +33,18 @@ bool isCheaper(const PoseCandidate& a, const PoseCandidate& b) {
   return a.cost < b.cost;
 }
 
+/// Adds starts that are not there yet: the best by one merit is often the best by the other.
+void addNew(std::vector<PoseCandidate>& starts, const std::vector<PoseCandidate>& others) {
+  const auto end = static_cast<std::ptrdiff_t>(starts.size());
+  for (const PoseCandidate& other : others) {
+    const bool is_new =
+        std::none_of(starts.begin(), starts.begin() + end, [&other](const PoseCandidate& start) {
+          return start.pose_map_beams == other.pose_map_beams;
+        });
+    if (is_new) starts.push_back(other);
+  }
+}
+
 /// The least cost of poses once refined; those seen before are not refined again.
 class LeastRefined {
  public:
@@ -113,8 +125,7 @@ CertifiedSearchResult searchTree(const SearchTree& tree, const BandQuery& query,
   }
 
   result.candidates = seeds.allIfFew(params.max_candidates);
-  const std::vector<PoseCandidate> explained = seeds.mostExplained(params.max_explained);
-  result.candidates.insert(result.candidates.end(), explained.begin(), explained.end());
+  addNew(result.candidates, seeds.mostExplained(params.max_explained));
   result.evaluated = descent.evaluated();
   if (!result.is_complete) {
     // Whatever has not been opened may hold the best.
